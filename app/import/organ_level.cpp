@@ -60,6 +60,10 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   {
     counts.insert(counts.begin(), count);
   }
+  if (counts.empty())
+  {
+    return std::nullopt; // it is felt as it is
+  }
   const std::vector<TriangleMesh> finer = decimatedTo(counts, points, triangles, 0.5 * voxel);
   const auto nearEnough = [&](const TriangleMesh& felt)
   {
@@ -69,7 +73,7 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
     return apart.largest <= most ? std::optional(levelOf(felt.points, felt.triangles, apart))
                                  : std::nullopt;
   };
-  std::optional<OrganLevel> found = finer.empty() ? std::nullopt : nearEnough(finer.back());
+  std::optional<OrganLevel> found = nearEnough(finer.back());
   if (found || finer.size() < 2 || !(found = nearEnough(finer.front())))
   {
     return found;
@@ -135,9 +139,11 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
         "no coarser level: none of half as many points stays within a voxel of it");
     }
   }
-  catch (const Error& error) // an edge of three triangles
+  catch (const Error&) // an edge of three triangles
   {
-    result.warnings.push_back(std::string("no coarser level: ") + error.what());
+    result.warnings.emplace_back(
+      "no coarser level, so what is shown is felt, which takes longer: "
+      "parts of it meet only in edges or points; smooth the image there");
   }
   if (const std::size_t count = crossing.get(); count > 0)
   {

@@ -135,7 +135,7 @@ FilledHoles fillHoles(
   std::span<const Eigen::Vector3d> points, std::vector<Triangle>& triangles, double longest)
 {
   const Edges edges = edgesOf(points.size(), triangles);
-  const std::vector<std::vector<Side>> holes = borders(triangles, edges);
+  const std::vector<std::vector<Side>> holes = borders(points, triangles, edges);
   std::set<std::array<int, 2>> known(edges.all.begin(), edges.all.end());
   std::vector<std::vector<Triangle>> fillings;
   for (const std::vector<Side>& border : holes)

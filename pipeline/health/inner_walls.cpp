@@ -6,6 +6,7 @@
 #include "haptics/surface/ray.h"
 #include "haptics/surface/winding.h"
 #include "pipeline/health/open_sides.h"
+#include "pipeline/health/slivers.h"
 #include "pipeline/surface_io/surface_facing.h"
 
 #include <Eigen/Geometry>
@@ -92,18 +93,19 @@ std::vector<std::size_t> samplesOf(const Part& part)
   return samples;
 }
 
-// whether a part is there twice: all of it lies on the rest
-bool isCovered(const MergedMesh& mesh, const BoxTree& rest, const Part& part, double aside)
+bool liesOn(const MergedMesh& mesh, const BoxTree& rest, const Triangle& t, double aside)
 {
   const auto isOn = [&](const Eigen::Vector3d& place)
   { return distanceTo(rest, place, 2.0 * aside) < aside; };
-  return std::ranges::all_of(part.triangles,
-    [&](std::size_t i)
-    {
-      const Triangle& t = mesh.triangles[i];
-      return isOn(middleOf(mesh, t)) &&
-        std::ranges::all_of(t, [&](int corner) { return isOn(mesh.points[at(corner)]); });
-    });
+  return isOn(middleOf(mesh, t)) &&
+    std::ranges::all_of(t, [&](int corner) { return isOn(mesh.points[at(corner)]); });
+}
+
+// whether a part is there twice: all of it lies on the rest
+bool isCovered(const MergedMesh& mesh, const BoxTree& rest, const Part& part, double aside)
+{
+  return std::ranges::all_of(
+    part.triangles, [&](std::size_t i) { return liesOn(mesh, rest, mesh.triangles[i], aside); });
 }
 
 // whether all the rest is on both sides of a part, which is nowhere seen from outside, where that
@@ -154,6 +156,43 @@ bool isWall(const MergedMesh& mesh, const Edges& edges, const BoxTree& whole, co
 }
 
 } // namespace
+
+void dropHanging(MergedMesh& mesh)
+{
+  const Edges edges = edgesOf(mesh.points.size(), mesh.triangles);
+  std::vector<bool> isApart(mesh.triangles.size());
+  std::vector<Triangle> rest;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    isApart[i] = std::ranges::count(edges.across[i], -1) == 3;
+    isApart[i] ? void() : rest.push_back(mesh.triangles[i]);
+  }
+  if (rest.size() == mesh.triangles.size())
+  {
+    return;
+  }
+  std::vector<bool> isOpen(mesh.triangles.size());
+  for (const std::vector<Side>& sides : unpairedSides(mesh.triangles, edges))
+  {
+    sides.size() == 1 ? void(isOpen[at(sides.front().triangle)] = true) : void();
+  }
+  const BoxTree tree(mesh.points, rest);
+  const auto hangs = [&](const Triangle& t, bool isLoose)
+  {
+    constexpr double kFlat = 1e-6; // of its longest side, as high: by the rounding of files
+    constexpr double kOn = 1e-3;   // of that side, off the rest
+    const Eigen::Vector3d& a = mesh.points[at(t[0])];
+    const Eigen::Vector3d& b = mesh.points[at(t[1])];
+    const Eigen::Vector3d& c = mesh.points[at(t[2])];
+    const double longest = std::max({ (b - a).norm(), (c - b).norm(), (a - c).norm() });
+    return flatness(a, b, c) < kFlat || (isLoose && liesOn(mesh, tree, t, kOn * longest));
+  };
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    isApart[i] = isApart[i] && hangs(mesh.triangles[i], isOpen[i]);
+  }
+  mesh = mergedWithout(mesh.points, mesh.triangles, isApart);
+}
 
 void dropInnerWalls(MergedMesh& mesh)
 {

@@ -14,6 +14,12 @@ namespace palp
 /// @return      how many were turned
 [[nodiscard]] std::size_t turnOutward(MergedMesh& mesh);
 
+/// Leaves out triangles that no side joins to others: those without an area, and those that lie on
+/// the rest, to a thousandth of their longest side, and are open.
+///
+/// @param mesh  each point once; stays a mesh
+void dropHanging(MergedMesh& mesh);
+
 /// Leaves out what bounds nothing and ends at edges of three triangles or more, where the rest is
 /// whole without it: walls within a body, that have the rest on both of their sides, so that nobody
 /// sees them from outside, and what lies on the rest.

@@ -192,20 +192,8 @@ void findNonManifold(const Subject& subject, Findings& findings, std::vector<Fin
 
 void findHoles(const Subject& subject, Findings& findings, std::vector<Finding>& all)
 {
-  std::set<std::pair<int, int>> open;
-  for (const std::vector<Side>& sides : unpairedSides(subject.triangles, subject.edges))
+  for (const std::vector<Side>& border : borders(subject.points, subject.triangles, subject.edges))
   {
-    sides.size() == 1 ? void(open.insert({ sides[0].triangle, sides[0].k })) : void();
-  }
-  for (const std::vector<Side>& border : borders(subject.triangles, subject.edges))
-  {
-    if (std::ranges::none_of(border,
-          [&](const Side& side) {
-            return open.contains({ side.triangle, side.k });
-          }))
-    {
-      continue;
-    }
     double length = 0.0;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const auto& [triangle, k] : border)

@@ -49,22 +49,6 @@ void dropInner(RepairedMesh& mesh, const Facing& facing)
   }
 }
 
-// Triangles without an area that hang on nothing, or on an edge that is whole without them.
-void dropHanging(MergedMesh& mesh)
-{
-  const Edges edges = edgesOf(mesh.points.size(), mesh.triangles);
-  std::size_t i = 0;
-  std::erase_if(mesh.triangles,
-    [&](const Triangle& t)
-    {
-      constexpr double kFlat = 1e-6; // of its longest side, as high: by the rounding of files
-      const bool isApart = std::ranges::count(edges.across[i++], -1) == 3;
-      const auto& [a, b, c] = t;
-      return isApart &&
-        flatness(mesh.points[at(a)], mesh.points[at(b)], mesh.points[at(c)]) < kFlat;
-    });
-}
-
 // Where bodies of one closed surface touch or overlap, what has the body on both sides bounds
 // nothing. It goes where the rest is closed: else the walls cross, which stays and is told.
 void dropBuried(MergedMesh& mesh)
@@ -122,9 +106,14 @@ RepairedMesh repairedOnce(
   const Facing facing = facingOf(result);
   turnAlike(result, facing);
   dropInner(result, facing);
+  if (result.merged + result.removed + result.cut > 0)
+  {
+    return result; // by which more may meet: until all does, no hole is one, and nothing is parted
+  }
+  // first, for holes that meet at a point would be one where it is split
+  const auto [filled, holesLeft] = fillHoles(result.points, result.triangles, largestHole);
   const auto [split, splitLeft] = splitNonManifold(result.points, result.triangles);
   const auto [slivers, sliversLeft] = removeSlivers(result.points, result.triangles);
-  const auto [filled, holesLeft] = fillHoles(result.points, result.triangles, largestHole);
   result.split = split;
   result.splitLeft = splitLeft;
   result.slivers = slivers;
@@ -155,7 +144,7 @@ RepairedMesh repairedMesh(
   std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double largestHole)
 {
   RepairedMesh result = repairedOnce(points, triangles, largestHole);
-  constexpr int kMost = 10;
+  constexpr int kMost = 20;
   bool isStable = isDone(result);
   for (int again = 0; again < kMost && !isStable; ++again) // one mend may let another do more
   {

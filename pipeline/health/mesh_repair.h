@@ -30,8 +30,8 @@ struct RepairedMesh
 
 /// Again and again, until nothing is left to do: merges points, welds seams, cuts triangles at
 /// points of others on their edges, removes degenerate and duplicate triangles, slivers, walls
-/// within a body, and what bodies that touch have between them, parts what meets in a non-manifold
-/// edge or point, closes small holes, and turns triangles alike.
+/// within a body, and what bodies that touch have between them; once that is done closes small
+/// holes, parts what meets in a non-manifold edge or point, and turns triangles alike.
 ///
 /// What touches along an edge is parted between the wedges of the body, and moved from there by
 /// a thousandth of an edge, so that it stays apart in every file. Nothing is done by which a

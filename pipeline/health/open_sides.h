@@ -22,10 +22,11 @@ struct Side
 [[nodiscard]] std::vector<std::vector<Side>> unpairedSides(
   std::span<const Triangle> triangles, const Edges& edges);
 
-/// The closed chains of unpaired sides, each around a hole or along edges that are not manifold.
-/// @param triangles  oriented alike across their edges; where they cannot be, chains are cut short
+/// The chains of sides at open edges, each closed around a hole. Holes that meet at a point, or
+/// around a triangle that hangs by its corners, are as many as one sees.
+/// @param triangles  turned alike; where they cannot be, chains are not closed
 [[nodiscard]] std::vector<std::vector<Side>> borders(
-  std::span<const Triangle> triangles, const Edges& edges);
+  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, const Edges& edges);
 
 /// A number for each corner, the same for those of a point whose triangles hang together across
 /// edges that they share; a point with several is not manifold.

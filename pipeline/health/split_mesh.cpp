@@ -185,13 +185,14 @@ public:
     return origins;
   }
 
-  // elsewhere, but as near
+  // elsewhere, but as near, and now more aside, now more along: one may not find room
   void move(const std::set<int>& origins)
   {
     for (std::size_t i = 0; i < places_.size(); ++i)
     {
-      origins.contains(parting_.origin[i]) && moves(i) ? put(i, std::abs(any_(random_)), 0.5)
-                                                       : void();
+      origins.contains(parting_.origin[i]) && moves(i)
+        ? put(i, std::abs(any_(random_)), 0.5 * std::abs(any_(random_)))
+        : void();
     }
   }
 

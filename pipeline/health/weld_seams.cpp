@@ -6,8 +6,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numeric>
+#include <ranges>
 #include <utility>
 
 namespace palp
@@ -15,57 +17,76 @@ namespace palp
 namespace
 {
 
-// how far each point may move to another; 0: it is at no open edge [m]
-std::vector<double> reachesOf(
-  std::span<const Eigen::Vector3d> points, const Edges& edges, double ofEdge)
+// how far each point may move to another [m]; 0: not at all
+struct Reach
 {
-  std::vector<double> reach(points.size(), 0.0);
-  for (const auto& [a, b] : edges.unpaired)
+  std::vector<double> most;
+  std::vector<bool> isOpen; // at an open edge
+};
+
+// closed: whether what is at no open edge moves, too, as a closed piece where others are open
+Reach reachOf(
+  std::span<const Eigen::Vector3d> points, const Edges& edges, double ofEdge, bool closed)
+{
+  Reach reach{ .most = std::vector<double>(points.size()),
+    .isOpen = std::vector<bool>(points.size()) };
+  for (const int end : std::views::join(edges.unpaired))
   {
-    const double most = ofEdge * (points[at(a)] - points[at(b)]).norm();
-    for (const int end : { a, b })
-    {
-      double& of = reach[at(end)];
-      of = of > 0.0 ? std::min(of, most) : most;
-    }
+    reach.isOpen[at(end)] = true;
   }
+  const auto shorten = [&](const std::vector<std::array<int, 2>>& all, bool isOpen)
+  {
+    for (const auto& [a, b] : all)
+    {
+      const double most = ofEdge * (points[at(a)] - points[at(b)]).norm();
+      for (const int end : { a, b })
+      {
+        double& of = reach.most[at(end)];
+        of = reach.isOpen[at(end)] != isOpen ? of : of > 0.0 ? std::min(of, most) : most;
+      }
+    }
+  };
+  shorten(edges.unpaired, true);
+  closed ? shorten(edges.all, false) : void();
   return reach;
 }
 
-// the point to which each goes: itself, or another
-std::vector<int> nearOnes(std::span<const Eigen::Vector3d> points, std::span<const double> reach)
+// the point to which each goes: itself, or another, where one of the two is at an open edge
+std::vector<int> nearOnes(std::span<const Eigen::Vector3d> points, const Reach& reach)
 {
   std::vector<int> onto(points.size());
   std::iota(onto.begin(), onto.end(), 0);
-  std::vector<std::size_t> open;
-  Eigen::AlignedBox3d box;
+  Eigen::AlignedBox3d box; // of what is open
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    if (reach[i] > 0.0)
-    {
-      open.push_back(i);
-      box.extend(points[i]);
-    }
+    reach.isOpen[i] ? void(box.extend(points[i])) : void();
   }
-  if (open.empty())
+  if (box.isEmpty())
   {
     return onto;
   }
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    reach.most[i] > 0.0 && box.exteriorDistance(points[i]) <= reach.most[i] ? all.push_back(i)
+                                                                            : void();
+  }
   Eigen::Index along = 0;
   box.sizes().maxCoeff(&along);
-  std::ranges::sort(open, {}, [&](std::size_t i) { return points[i][along]; });
-  for (std::size_t i = 0; i < open.size(); ++i)
+  std::ranges::sort(all, {}, [&](std::size_t i) { return points[i][along]; });
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
-    const std::size_t one = open[i];
-    for (std::size_t k = i + 1; k < open.size() && at(onto[one]) == one; ++k)
+    const std::size_t one = all[i];
+    for (std::size_t k = i + 1; k < all.size() && at(onto[one]) == one; ++k)
     {
-      const std::size_t other = open[k];
-      if (points[other][along] - points[one][along] > reach[one])
+      const std::size_t other = all[k];
+      if (points[other][along] - points[one][along] > reach.most[one])
       {
         break;
       }
-      const double near = std::min(reach[one], reach[other]);
-      if (at(onto[other]) == other && (points[other] - points[one]).norm() <= near)
+      const double near = std::min(reach.most[one], reach.most[other]);
+      if ((reach.isOpen[one] || reach.isOpen[other]) && at(onto[other]) == other &&
+        (points[other] - points[one]).norm() <= near)
       {
         onto[other] = static_cast<int>(one);
       }
@@ -130,8 +151,8 @@ WeldedSeams weldSeams(std::vector<Eigen::Vector3d>& points, std::span<const Tria
   constexpr double kLeast = kMost / 16.0;
   constexpr double kNear = 0.1; // so that one wonders why it was left
   const Edges edges = edgesOf(points.size(), triangles);
-  const auto within = [&](double ofEdge)
-  { return nearOnes(points, reachesOf(points, edges, ofEdge)); };
+  const auto within = [&](double ofEdge, bool closed = true)
+  { return nearOnes(points, reachOf(points, edges, ofEdge, closed)); };
   const std::vector<int> alone = within(0.0);
   std::vector<int> onto = within(kLeast);
   for (double ofEdge = kLeast; ofEdge <= kMost; ofEdge *= 2.0)
@@ -148,7 +169,7 @@ WeldedSeams weldSeams(std::vector<Eigen::Vector3d>& points, std::span<const Tria
     }
     onto = std::move(more);
   }
-  onto = within(kNear);
+  onto = within(kNear, false);
   std::vector<bool> isNear(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {

@@ -16,9 +16,10 @@ struct WeldedSeams
   std::size_t left = 0; ///< open edges beside others, within a tenth of their length, if not
 };
 
-/// Moves points at open edges onto others there that are next to them, as along the seams of parts
-/// that were written by themselves: within 1/50 of the shortest open edge at both, and twice as far
-/// no other. A seam that would stay open in places is left alone.
+/// Moves points at open edges onto others that are next to them, as along the seams of parts that
+/// were written by themselves, some of which may be closed: within 1/50 of the shortest open edge
+/// at both, or of the shortest of a point that is at none, and twice as far no other. A seam that
+/// would stay open in places is left alone.
 ///
 /// O(n log n) for seams that run along any lines.
 ///

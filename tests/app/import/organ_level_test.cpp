@@ -1,5 +1,6 @@
 #include "app/import/organ_level.h"
 #include "app/import/organ_look.h"
+#include "data/shapes.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/support/process.h"
 
@@ -67,6 +68,31 @@ TEST(ImportedOrgan, TellsOfASurfaceThatPassesThroughItself)
     const auto tells = [](const std::string& warning)
     { return warning.find("passes through itself") != warning.npos; };
     EXPECT_EQ(std::ranges::any_of(organ.warnings, tells), thick == 1);
+  }
+}
+
+// where three triangles meet in an edge there is no coarser level, which a small organ needs not
+TEST(ImportedOrgan, TellsWhyALargeOneHasNoCoarserLevel)
+{
+  for (const int subdivisions : { 3, 6 }) // 642 and 40,962 points
+  {
+    Mesh ball = makeSphere(50.0, subdivisions);
+    const auto [a, b, c] = ball.triangles.front();
+    ball.points.emplace_back(1.05 * ball.points[static_cast<std::size_t>(a)]);
+    ball.triangles.push_back({ a, b, static_cast<int>(ball.points.size()) - 1 });
+    FileOrgan organ;
+    organ.name = "ball";
+    organ.surface.points = organ.from = ball.points;
+    organ.surface.triangles = ball.triangles;
+    organ.voxel = 1.0;
+    const ImportedOrgan found = importedOrgan(organ, "ball.mha", LengthUnit::Millimeter);
+    EXPECT_FALSE(found.felt);
+    const auto tells = [](const std::string& warning)
+    { return warning.find("no coarser level, so what is shown is felt") != warning.npos; };
+    EXPECT_EQ(std::ranges::any_of(found.warnings, tells), subdivisions == 6);
+    const auto isOther = [](const std::string& warning)
+    { return warning.find("does not fit its neighbors") != warning.npos; };
+    EXPECT_TRUE(std::ranges::none_of(found.warnings, isOther));
   }
 }
 

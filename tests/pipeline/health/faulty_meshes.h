@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <random>
 
 namespace palp::test
 {
@@ -51,6 +52,25 @@ inline RepairedMesh repairedOf(const Mesh& mesh, double largestHole = 0.0)
   EXPECT_EQ(again.cut + again.filled + again.turned, 0U);
   EXPECT_EQ(again.triangles.size(), mended.triangles.size());
   return mended;
+}
+
+/// Each triangle with points of its own, off by up to a length [m].
+inline Mesh soupOf(const Mesh& mesh, double off, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-off, off);
+  Mesh soup;
+  for (const Triangle& t : mesh.triangles)
+  {
+    const auto n = static_cast<int>(soup.points.size());
+    for (const int corner : t)
+    {
+      soup.points.push_back(
+        mesh.points[at(corner)] + Eigen::Vector3d(any(random), any(random), any(random)));
+    }
+    soup.triangles.push_back({ n, n + 1, n + 2 });
+  }
+  return soup;
 }
 
 /// The body stays whole, and what stands on it goes its own way.

@@ -20,25 +20,6 @@ MeshPiece wholeOf(const Mesh& mesh)
   return palp::healthOf(mesh.points, mesh.triangles).pieces.at(0);
 }
 
-// each triangle with points of its own, off by up to a length [m]
-Mesh soupOf(const Mesh& mesh, double off, unsigned seed)
-{
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> any(-off, off);
-  Mesh soup;
-  for (const Triangle& t : mesh.triangles)
-  {
-    const auto n = static_cast<int>(soup.points.size());
-    for (const int corner : t)
-    {
-      soup.points.push_back(
-        mesh.points[at(corner)] + Vector3d(any(random), any(random), any(random)));
-    }
-    soup.triangles.push_back({ n, n + 1, n + 2 });
-  }
-  return soup;
-}
-
 // of 0.1 x 0.08 x 0.06 m, with a wall across its middle
 Mesh walledBox(const Mesh& box)
 {
