@@ -9,6 +9,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <malloc.h>
 #include <random>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -259,10 +260,12 @@ TEST_F(FastServo, Memory)
     {
       const Recording& recording = session_->recording();
       const std::size_t samples = recording.samples.size();
-      std::printf("memory: %.1f MB after %.0f min of random presses, %.1f without the ring, of %zu "
-                  "samples, %zu of them thinned; %zu presses\n",
-        megabytes(), told, megabytes() - 1e-6 * static_cast<double>(samples * sizeof(Sample)),
-        samples, recording.thinned, session_->presses().presses().size());
+      const struct mallinfo2 heap = mallinfo2();
+      std::printf("memory: %.1f MB after %.0f min of random presses, %.1f in use of a heap of %.1f "
+                  "and of %.1f in large blocks; %zu samples, %zu of them thinned; %zu presses\n",
+        megabytes(), told, 1e-6 * static_cast<double>(heap.uordblks),
+        1e-6 * static_cast<double>(heap.arena), 1e-6 * static_cast<double>(heap.hblkhd), samples,
+        recording.thinned, session_->presses().presses().size());
       std::fflush(stdout);
       told += 1.0;
     }
