@@ -17,15 +17,8 @@ using namespace units::literals;
 
 PressPlace parsePlace(const std::string& text, const std::string& what)
 {
-  std::vector<double> numbers;
-  try
-  {
-    numbers = parseNumbers(text, what);
-  }
-  catch (const Error&) // who asks for a number
-  {
-    numbers.clear();
-  }
+  const bool isWord = text.find_first_of("0123456789") == text.npos; // no number to ask for
+  const std::vector<double> numbers = isWord ? std::vector<double>() : parseNumbers(text, what);
   if (numbers.size() != 3)
   {
     throw Error(ErrorCode::BadValue,

@@ -110,7 +110,7 @@ TEST_F(RunPlaces, RefusesInOneSentence)
   for (const auto& [options, word] :
     std::vector<std::pair<std::string, std::string>>{
       { "--at " + point(0, 0, topMm() + 30), "30 mm off the surface" }, { "--at 1,2", "no place" },
-      { "--at 1,2,x", "is no place" }, { good + " --depth 5", "has no unit" },
+      { "--at 1,2,x", "is not a number" }, { good + " --depth 5", "has no unit" },
       { good + " --depth 60mm", "more than half of the" },
       { good + " --speed 5mm", "has the unit" }, { good + " --path x.csv", "excludes" },
       { "--depth 5mm", "--at and --points" }, { "--points none.fcsv", "none.fcsv" } })
