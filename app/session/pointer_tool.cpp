@@ -140,8 +140,8 @@ void PointerTool::release(double time)
 
 void PointerTool::wheel(int notches)
 {
-  const bool isOver = pressing_ || (last_ && below(*last_));
-  isOver ? deepen(notches * kDepthPerNotch) : void();
+  const bool isBeside = !pressing_ && last_ && !below(*last_);
+  isBeside ? void() : deepen(notches * kDepthPerNotch);
 }
 
 void PointerTool::deepen(double by)

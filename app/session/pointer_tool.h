@@ -50,7 +50,7 @@ public:
   bool press(int x, int y, double time);
   void drag(int pixelsDown);
   void release(double time);
-  void wheel(int notches); ///< nothing but over the body
+  void wheel(int notches); ///< nothing where the pointer is known to be beside the body
   void deepen(double by);  ///< what the wheel holds [m]
 
   /// Presses once at a place, whatever the pointer does meanwhile: apart from what was pressed
