@@ -16,9 +16,8 @@ namespace
 // what hangs together
 struct Piece
 {
-  int point = 0; // on it
-  double volume =
-    0.0; // positive where it faces as the largest does, 0 within a filled hollow [unit^3]
+  int point = 0;       // on it
+  double volume = 0.0; // positive where it faces as the largest does; 0 in a filled hollow [unit^3]
   bool isKept = false;
 };
 

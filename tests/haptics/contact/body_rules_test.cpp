@@ -153,13 +153,32 @@ private:
   double width_;
 };
 
-TEST(UnevenRule, TellsWhereFiniteElementsDifferByATenth)
+ForceLaw linearLaw()
 {
-  const test::CsvTable table = test::readCsv(PALP_SOURCE_DIR "/data/reference/uneven_surface.csv");
   LawSettings settings;
   settings.mode = LawMode::Corrected;
   settings.constitution = ConstitutiveModel::Linear;
-  const ForceLaw law(kRoundTip, makeMaterial(50.0_kPa, 0.45), settings);
+  return { kRoundTip, makeMaterial(50.0_kPa, 0.45), settings };
+}
+
+// along the way of the tool [N]
+double forceAlong(const Vector3d& way, const ForceLaw& law, const Contact& contact)
+{
+  return contact.slope * law(contactGeometryOf(contact)).force * -contact.normal.dot(way);
+}
+
+// makes each but once
+template <typename Key, typename Make>
+const Surface& surfaceOf(std::map<Key, Surface>& known, const Key& key, Make make)
+{
+  const auto found = known.find(key);
+  return found != known.end() ? found->second : known.emplace(key, make()).first->second;
+}
+
+TEST(UnevenRule, TellsWhereFiniteElementsDifferByATenth)
+{
+  const test::CsvTable table = test::readCsv(PALP_SOURCE_DIR "/data/reference/uneven_surface.csv");
+  const ForceLaw law = linearLaw();
   const Validity validity(law);
   std::map<std::pair<double, double>, Surface> surfaces;
   int told = 0;
@@ -170,15 +189,14 @@ TEST(UnevenRule, TellsWhereFiniteElementsDifferByATenth)
     const double fillet = table["fillet_m"][i];
     const double place = table["place_m"][i];
     const TurningBlock block(turn, fillet);
-    const Surface& surface = surfaces.try_emplace({ turn, fillet }, block.surface()).first->second;
+    const Surface& surface = surfaceOf(surfaces, { turn, fillet }, [&] { return block.surface(); });
     const Contact contact = pressed(
       surface, { place, 0.0, block.heightAt(place) }, table["depth_m"][i], block.inwardAt(place));
-    const ContactGeometry geometry = contactGeometryOf(contact);
-    const double force =
-      contact.slope * law(geometry).force * -contact.normal.dot(block.inwardAt(place));
-    const double error = force / table["force_N"][i] - 1.0;
+    const double error =
+      forceAlong(block.inwardAt(place), law, contact) / table["force_N"][i] - 1.0;
     const bool isUneven = !unevenRule(kRoundTip, contact).holds();
-    const bool isEdge = (brokenRules(validity(geometry, contact.edgeDistance)) >> 7U & 1U) != 0;
+    const bool isEdge =
+      (brokenRules(validity(contactGeometryOf(contact), contact.edgeDistance)) >> 7U & 1U) != 0;
     told += isUneven ? 1 : 0;
     believed += isUneven || isEdge ? 0 : 1;
     EXPECT_TRUE(isUneven || isEdge || std::abs(error) < 0.1)
@@ -193,10 +211,7 @@ TEST(UnevenRule, TellsWhereFiniteElementsDifferByATenth)
 TEST(UnevenRule, HoldsWhereALawOfAWavySurfaceIsThatOfFiniteElements)
 {
   const test::CsvTable table = test::readCsv(PALP_SOURCE_DIR "/data/reference/wave_surface.csv");
-  LawSettings settings;
-  settings.mode = LawMode::Corrected;
-  settings.constitution = ConstitutiveModel::Linear;
-  const ForceLaw law(kRoundTip, makeMaterial(50.0_kPa, 0.45), settings);
+  const ForceLaw law = linearLaw();
   std::map<double, Surface> surfaces;
   int told = 0;
   for (std::size_t i = 0; i < table["force_N"].size(); ++i)
@@ -211,19 +226,15 @@ TEST(UnevenRule, HoldsWhereALawOfAWavySurfaceIsThatOfFiniteElements)
       const double base = -40.0_mm;
       return Vector3d(x, 40.0_mm * p.y(), base + 0.5 * (p.z() + 1.0) * (heightAt(x) - base));
     };
-    const auto made = surfaces.find(number);
-    const Surface& surface = made != surfaces.end()
-      ? made->second
-      : surfaces.emplace(number, test::makeSurface(test::cubeMap(100, block))).first->second;
+    const Surface& surface =
+      surfaceOf(surfaces, number, [&] { return test::makeSurface(test::cubeMap(100, block)); });
     const Vector3d way =
       Vector3d(-amplitude * number * std::sin(number * place), 0.0, -1.0).normalized();
     const Contact contact =
       pressed(surface, { place, 0.0, heightAt(place) }, table["depth_m"][i], way);
-    const double force =
-      contact.slope * law(contactGeometryOf(contact)).force * -contact.normal.dot(way);
     const bool isEven = unevenRule(kRoundTip, contact).holds();
     told += isEven ? 0 : 1;
-    EXPECT_NEAR(force / table["force_N"][i], 1.0, isEven ? 0.03 : 0.1)
+    EXPECT_NEAR(forceAlong(way, law, contact) / table["force_N"][i], 1.0, isEven ? 0.03 : 0.1)
       << table["length_m"][i] << ' ' << place << ' ' << table["depth_m"][i];
   }
   EXPECT_GT(told, 5);
