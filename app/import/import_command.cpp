@@ -20,12 +20,10 @@
 
 #include <algorithm>
 #include <array>
-#include <future>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
-#include <thread>
 
 namespace palp
 {
@@ -229,26 +227,14 @@ void runImport(const ImportOptions& options)
   std::vector<std::string> files;
   nameFiles(all.organs, files, std::filesystem::canonical(options.image).stem().stem().string());
   ProgressLine progress("organs");
-  std::vector<ImportedOrgan> organs;
-  // twice as many ahead as there are processors: one that is large keeps none of them waiting
-  std::vector<std::future<ImportedOrgan>> making;
-  for (const std::string& file : files)
+  progress(0, files.size());
+  const std::vector<ImportedOrgan> organs = importedOrgans(std::move(all), files, options.image,
+    unit, output.stage(), [&](std::size_t done) { progress(done, files.size()); });
+  for (const ImportedOrgan& organ : organs)
   {
-    progress(organs.size(), files.size());
-    const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
-    const std::size_t ahead = organs.size() + 2 * processors;
-    while (making.size() < std::min(ahead, files.size()))
+    for (const std::string& warning : organ.warnings)
     {
-      FileOrgan& organ = all.organs[making.size()];
-      making.push_back(
-        std::async(std::launch::async, importedOrgan, std::move(organ), options.image, unit));
-    }
-    organs.push_back(making[organs.size()].get());
-    organs.back().file = file;
-    writeOrgan(output.stage(), organs.back(), all.space);
-    for (const std::string& warning : organs.back().warnings)
-    {
-      warnings.push_back(organs.back().name + ": " + warning);
+      warnings.push_back(organ.name + ": " + warning);
     }
   }
   replaceFile(output.stage() / kImportScene, importScene(source, organs));

@@ -7,7 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
+#include <future>
+#include <numeric>
+#include <thread>
 #include <vtkPolyData.h>
 
 namespace palp
@@ -75,6 +79,18 @@ Json organOf(const ImportedOrgan& organ)
   return json;
 }
 
+// NAME.vtp, and NAME_haptic.vtp where there is a coarser level; those are then forgotten
+void writeOrgan(const std::filesystem::path& folder, ImportedOrgan& organ, const std::string& space)
+{
+  writeSurface(folder / (organ.file + ".vtp"), *organ.shown.mesh, space);
+  organ.shown.mesh = nullptr;
+  if (organ.felt)
+  {
+    writeSurface(folder / (organ.file + kHaptic + ".vtp"), *organ.felt->mesh, space);
+    organ.felt->mesh = nullptr;
+  }
+}
+
 } // namespace
 
 std::vector<std::string> importFiles(const std::filesystem::path& folder)
@@ -99,15 +115,46 @@ std::vector<std::string> importFiles(const std::filesystem::path& folder)
   return files;
 }
 
-void writeOrgan(const std::filesystem::path& folder, ImportedOrgan& organ, const std::string& space)
+std::vector<ImportedOrgan> importedOrgans(FileOrgans all, const std::vector<std::string>& files,
+  const std::filesystem::path& image, LengthUnit unit, const std::filesystem::path& folder,
+  const std::function<void(std::size_t)>& tell)
 {
-  writeSurface(folder / (organ.file + ".vtp"), *organ.shown.mesh, space);
-  organ.shown.mesh = nullptr;
-  if (organ.felt)
+  std::vector<FileOrgan>& organs = all.organs;
+  std::vector<std::size_t> order(organs.size());
+  std::iota(order.begin(), order.end(), 0);
+  // the largest first: at the end it would keep one processor busy and the others waiting
+  std::ranges::stable_sort(
+    order, std::greater(), [&](std::size_t i) { return organs[i].from.size(); });
+  std::vector<ImportedOrgan> made(organs.size());
+  std::atomic<std::size_t> begun{ 0 };
+  std::atomic<std::size_t> done{ 0 };
+  const auto work = [&]
   {
-    writeSurface(folder / (organ.file + kHaptic + ".vtp"), *organ.felt->mesh, space);
-    organ.felt->mesh = nullptr;
+    for (std::size_t next = begun++; next < order.size(); next = begun++)
+    {
+      const std::size_t i = order[next];
+      made[i] = importedOrgan(std::move(organs[i]), image, unit);
+      made[i].file = files[i];
+      writeOrgan(folder, made[i], all.space);
+      tell(++done);
+    }
+  };
+  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::future<void>> workers(std::min(processors, organs.size()));
+  std::ranges::generate(workers, [&] { return std::async(std::launch::async, work); });
+  for (std::future<void>& worker : workers)
+  {
+    try
+    {
+      worker.get();
+    }
+    catch (...)
+    {
+      begun = order.size(); // what the others would make of the rest is of no use
+      throw;
+    }
   }
+  return made;
 }
 
 std::string importScene(const ImportSource& source, const std::vector<ImportedOrgan>& organs)

@@ -4,6 +4,7 @@
 #include "app/input/mesh_file.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,17 @@ struct ImportSource
 /// Files that an earlier import may have left in a folder: those two, and what its manifest lists.
 [[nodiscard]] std::vector<std::string> importFiles(const std::filesystem::path& folder);
 
-/// Writes NAME.vtp, and NAME_haptic.vtp where there is a coarser level; those are then forgotten.
-/// @throws Error  BadFile
-void writeOrgan(
-  const std::filesystem::path& folder, ImportedOrgan& organ, const std::string& space);
+/// Makes all organs and writes NAME.vtp, and NAME_haptic.vtp where there is a coarser level, which
+/// are then forgotten: one organ on each processor at a time.
+///
+/// @param files   names of them, without an ending
+/// @param image   its name, for messages
+/// @param folder  for the files
+/// @param tell    how many are done, on any thread
+/// @throws Error  BadFile; as importedOrgan
+[[nodiscard]] std::vector<ImportedOrgan> importedOrgans(FileOrgans all,
+  const std::vector<std::string>& files, const std::filesystem::path& image, LengthUnit unit,
+  const std::filesystem::path& folder, const std::function<void(std::size_t)>& tell);
 
 /// The scene that opens all organs, files beside it.
 [[nodiscard]] std::string importScene(

@@ -126,6 +126,11 @@ void openCavities(std::span<const Eigen::Vector3d> points, std::span<const Trian
 void findInner(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
   std::span<const Piece> pieces, Facing& facing)
 {
+  const auto facesOut = [&](const Piece& piece) { return isOutward(piece, facing.turn); };
+  if (std::ranges::count_if(pieces, facesOut) < 2)
+  {
+    return; // hollows alone, as of most organs; the rest takes as long as all else here
+  }
   const Winding winding(BoxTree(points, turned(triangles, facing.turn)));
   for (const Piece& piece : pieces)
   {

@@ -197,16 +197,40 @@ private:
     for (const Vertex near : mesh_.vv_range(from))
     {
       known(near).round = now_;
+      askAgain(near, from);
+      askAgain(near, to);
+    }
+    for (const Vertex near : mesh_.vv_range(to))
+    {
+      askAgain(near, to);
     }
     known(to).planes.add(known(from).planes);
     known(to).area += known(from).area;
     mesh_.collapse(edge);
     known(to).isAsked = false;
-    for (const Vertex near : mesh_.vv_range(to))
+    for (const HalfEdge out : mesh_.voh_range(to))
     {
-      known(near).isAsked = false;
+      compare(mesh_.opposite_halfedge_handle(out));
     }
     --left_;
+  }
+
+  // where the best of a point's edges is one to another
+  void askAgain(Vertex vertex, Vertex other)
+  {
+    Known& here = known(vertex);
+    const HalfEdge best = here.best.edge;
+    here.isAsked = here.isAsked && !(best.is_valid() && mesh_.to_vertex_handle(best) == other);
+  }
+
+  // of one edge, whose cost is another by now, with the best of those from the same point
+  void compare(HalfEdge edge)
+  {
+    if (Known& here = known(mesh_.from_vertex_handle(edge)); here.isAsked)
+    {
+      const double cost = costOf(edge);
+      here.best = cost < here.best.cost ? Choice{ cost, edge } : here.best;
+    }
   }
 
   // whether no more edges lead from a point
