@@ -1,60 +1,20 @@
 #include "haptics/surface/decimation/decimate.h"
 
-#include "haptics/error.h"
+#include "haptics/surface/decimation/half_edges.h"
 #include "haptics/surface/decimation/planes.h"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
+#include <utility>
 
 namespace palp
 {
 namespace
 {
 
-struct Traits : OpenMesh::DefaultTraits
-{
-  using Point = OpenMesh::Vec3d;
-  using Normal = OpenMesh::Vec3d;
-};
-using HalfEdges = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 using HalfEdge = HalfEdges::HalfedgeHandle;
 using Vertex = HalfEdges::VertexHandle;
-
-HalfEdges halfEdgesOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
-{
-  HalfEdges mesh;
-  mesh.reserve(points.size(), 3 * triangles.size() / 2, triangles.size());
-  std::vector<Vertex> handles(points.size());
-  omerr().disable(); // the error below says it in our words
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-  {
-    std::array<Vertex, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const auto point = static_cast<std::size_t>(triangles[i][k]);
-      const Eigen::Vector3d& x = points[point];
-      if (!handles[point].is_valid())
-      {
-        handles[point] = mesh.add_vertex({ x.x(), x.y(), x.z() });
-      }
-      corners[k] = handles[point];
-    }
-    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-    {
-      continue;
-    }
-    if (!mesh.add_face(corners[0], corners[1], corners[2]).is_valid())
-    {
-      throw Error(ErrorCode::BadMesh,
-        "surface: triangle " + std::to_string(i) +
-          " does not fit its neighbors; repair the mesh, or press it undecimated");
-    }
-  }
-  return mesh;
-}
 
 // twice the area, along the normal
 OpenMesh::Vec3d areaOf(const OpenMesh::Vec3d& a, const OpenMesh::Vec3d& b, const OpenMesh::Vec3d& c)
