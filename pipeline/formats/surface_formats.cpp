@@ -9,6 +9,7 @@
 #include "pipeline/formats/meshes/surface_readers.h"
 #include "pipeline/formats/msh_format.h"
 #include "pipeline/formats/read_limits.h"
+#include "pipeline/formats/regions/image_labels.h"
 #include "pipeline/formats/regions/image_surface.h"
 #include "pipeline/formats/value_formats.h"
 #include "pipeline/formats/vti_image.h"
@@ -241,14 +242,7 @@ PatientImage imageOf(const std::filesystem::path& file, const Format& format, co
   PatientImage volume = format.readImage ? format.readImage(file)
     : &format == &kDicomFolder           ? dicom.series(file, part.series)
                                          : dicom.segments(file);
-  for (const LabelName& label : part.names)
-  {
-    if (label.value != 0.0) // which is no region
-    {
-      const double stored = (label.value - volume.intercept) / volume.slope;
-      volume.segments.push_back({ .name = label.name, .value = stored });
-    }
-  }
+  giveNames(volume, part.names);
   return volume;
 }
 

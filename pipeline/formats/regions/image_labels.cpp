@@ -53,6 +53,29 @@ std::string inDigits(double value)
   return isWhole ? std::to_string(static_cast<long long>(value)) : shortest(value);
 }
 
+void giveNames(PatientImage& volume, std::span<const LabelName> names)
+{
+  for (const LabelName& label : names)
+  {
+    const double stored = (label.value - volume.intercept) / volume.slope;
+    const auto isIt = [&](const Segment& one) { return one.value == stored; };
+    const auto own = std::ranges::count_if(volume.segments, isIt);
+    if (own == 1)
+    {
+      std::ranges::find_if(volume.segments, isIt)->name = label.name;
+    }
+    else if (own > 1)
+    {
+      volume.notes.push_back("warning: " + inDigits(label.value) +
+        " is the value of several segments, which keep their own names");
+    }
+    else if (label.value != 0.0) // which is no region
+    {
+      volume.segments.push_back({ .name = label.name, .value = stored });
+    }
+  }
+}
+
 std::vector<Label> labelsOf(const PatientImage& volume, const ImageValues& first)
 {
   std::vector<Label> labels;

@@ -2,6 +2,7 @@
 
 #include "pipeline/formats/images/patient_image.h"
 #include "pipeline/formats/regions/image_values.h"
+#include "pipeline/process/file_surface.h"
 
 #include <optional>
 #include <span>
@@ -13,6 +14,10 @@ namespace palp
 
 /// A value as people write it: 2000000000, and not 2e+09.
 [[nodiscard]] std::string inDigits(double value);
+
+/// Calls the labels as a table does, also those that the file names itself; but where several
+/// layers have one value, which is told.
+void giveNames(PatientImage& volume, std::span<const LabelName> names);
 
 /// A region of a label map, and what is known of it.
 struct Label

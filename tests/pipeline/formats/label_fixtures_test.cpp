@@ -199,6 +199,32 @@ TEST_F(LabelFixtures, OfLayersThatOverlapAreBothBallsWhole)
   expectBalls("old.seg.nrrd", las, true);
 }
 
+TEST_F(LabelFixtures, AreCalledAsATableCallsThemWhateverTheFileDoes)
+{
+  const Grid las{ .axes = signs(1, -1, 1), .origin = { 5.0, 66.0, -12.0 } };
+  const std::string own = "type: uchar\nencoding: gzip\nSegment0_Name:=large\n"
+                          "Segment0_LabelValue:=1";
+  write("own.seg.nrrd",
+    nrrd(las, "left-anterior-superior", signs(1, -1, 1), own, packed(voxelsOf<std::uint8_t>(las))));
+  const ImagePart table{ .names = { { 1.0, "liver" }, { 2.0, "kidney" } } };
+  const auto named = readFileOrgans(folder_.path() / "own.seg.nrrd", table, true);
+  ASSERT_EQ(named.organs.size(), 2U);
+  EXPECT_EQ(named.organs[0].name, "liver");
+  EXPECT_EQ(named.organs[1].name, "kidney");
+
+  const std::string layers = "type: uchar\nencoding: gzip\nSegment0_Name:=large\n"
+                             "Segment0_LabelValue:=1\nSegment0_Layer:=0\nSegment1_Name:=small\n"
+                             "Segment1_LabelValue:=1\nSegment1_Layer:=1";
+  write("layers.seg.nrrd",
+    nrrd(las, "left-anterior-superior", signs(1, -1, 1), layers, packed(layersOf(las))));
+  const FileOrgans kept = readFileOrgans(folder_.path() / "layers.seg.nrrd", table, true);
+  ASSERT_EQ(kept.organs.size(), 2U);
+  EXPECT_EQ(kept.organs[0].name + kept.organs[1].name, "largesmall");
+  const auto tells = [](const std::string& note)
+  { return note.find("1 is the value of several segments") != note.npos; };
+  EXPECT_TRUE(std::ranges::any_of(kept.notes, tells));
+}
+
 TEST_F(LabelFixtures, OfVtiAreTheBalls)
 {
   const Grid turned{ .axes = oblique(), .origin = { 33.0, -21.0, 7.0 } };
