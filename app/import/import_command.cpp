@@ -56,24 +56,6 @@ void tell(const std::string& what)
   std::cerr << "palp: " << printable(what) << '\n';
 }
 
-std::array<double, 2> parseBand(const std::string& text)
-{
-  const std::size_t colon = text.find(':');
-  if (colon == text.npos)
-  {
-    throw Error(ErrorCode::BadValue,
-      "--threshold: " + inQuotes(text) + " is no range; write it as LOW:HIGH, like 200:3000");
-  }
-  const std::array band{ parseNumber(text.substr(0, colon), "--threshold"),
-    parseNumber(text.substr(colon + 1), "--threshold") };
-  if (!(band[0] <= band[1]))
-  {
-    throw Error(ErrorCode::BadValue,
-      "--threshold: " + inQuotes(text) + " is empty; write the lower value first, like 200:3000");
-  }
-  return band;
-}
-
 std::size_t parseComponents(const std::string& text)
 {
   if (text == "all" || text == "largest")
@@ -271,7 +253,7 @@ void addParts(CLI::App& command, ImportOptions& options)
   auto* band = addParsed(command, "--threshold",
     "Of any other image: all with values LOW:HIGH, of a CT in Hounsfield units", "",
     [part](const std::string& text) {
-      part->band = parseBand(text);
+      part->band = parseBand(text, "--threshold");
     })->excludes(label);
   addParsed(command, "--level", "or what is above one value", "",
     [part](const std::string& text) { part->level = parseNumber(text, "--level"); })

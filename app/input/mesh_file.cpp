@@ -145,6 +145,7 @@ std::string describe(const MeshFile& mesh)
 {
   std::string part = mesh.part.series.empty() ? "" : ", series " + printable(mesh.part.series);
   part += mesh.part.level ? ", level " + shortest(*mesh.part.level) : "";
+  part += mesh.part.band ? ", values " + bandText(*mesh.part.band) : "";
   for (const std::string& label : mesh.part.labels)
   {
     part += ", label " + label;

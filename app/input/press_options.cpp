@@ -70,6 +70,10 @@ void MeshSource::addTo(CLI::App& command)
   auto* level = addParsed(command, "--level",
     "Value of an image on the surface, no unit: 0.5 for a mask of 0 and 1", "",
     [this](const std::string& text) { part.level = parseNumber(text, "--level"); });
+  auto* band = addParsed(command, "--values",
+    "or all of an image with values LOW:HIGH, of a CT in Hounsfield units: 200:3071 for bone", "",
+    [this](const std::string& text) { part.band = parseBand(text, "--values"); });
+  band->excludes(level);
   addParsed(command, "--names",
     "Table of the labels' names: of 3D Slicer, ITK-SNAP, or JSON as of TotalSegmentator", "",
     [this](const std::string& text) { part.names = readLabelNames(text); });
@@ -77,7 +81,8 @@ void MeshSource::addTo(CLI::App& command)
     "Region of a label map that is the body, by value or name: 5, or 1,2 for both", "",
     [this](const std::string& text)
     { part.labels = valuesOfLabels(parseLabels(text, "--label"), part.names); })
-    ->excludes(level);
+    ->excludes(level)
+    ->excludes(band);
 }
 
 CLI::Option* addTip(CLI::App& command, Tip& tip, const std::string& usual)

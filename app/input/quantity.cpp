@@ -213,6 +213,27 @@ std::vector<double> parseNumbers(std::string_view text, std::string_view what)
   return numbers;
 }
 
+std::array<double, 2> parseBand(std::string_view text, std::string_view what)
+{
+  const std::size_t colon = text.find(':');
+  if (colon == text.npos)
+  {
+    refuse(what, text, "is no range; write it as LOW:HIGH, like 200:3000");
+  }
+  const std::array band{ parseNumber(text.substr(0, colon), what),
+    parseNumber(text.substr(colon + 1), what) };
+  if (!(band[0] <= band[1]))
+  {
+    refuse(what, text, "is empty; write the lower value first, like 200:3000");
+  }
+  return band;
+}
+
+std::string bandText(const std::array<double, 2>& band)
+{
+  return shortest(band[0]) + ':' + shortest(band[1]);
+}
+
 std::vector<std::string> parseLabels(std::string_view text, std::string_view what)
 {
   std::vector<std::string> labels;
@@ -229,6 +250,16 @@ std::vector<std::string> parseLabels(std::string_view text, std::string_view wha
     }
   }
   return labels;
+}
+
+std::string labelsText(const std::vector<std::string>& labels)
+{
+  std::string text;
+  for (const std::string& label : labels)
+  {
+    text.append(text.empty() ? "" : ",").append(csvField(label));
+  }
+  return text;
 }
 
 Range parseRange(std::string_view text, Quantity kind, std::string_view what)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -61,10 +63,20 @@ struct Bounds
 /// @throws Error BadValue: also where a place is empty
 [[nodiscard]] std::vector<double> parseNumbers(std::string_view text, std::string_view what);
 
+/// Reads LOW:HIGH, bare numbers, as of the values of an image.
+/// @throws Error BadValue: also where the first is the higher
+[[nodiscard]] std::array<double, 2> parseBand(std::string_view text, std::string_view what);
+
+/// The same as text, to the last bit.
+[[nodiscard]] std::string bandText(const std::array<double, 2>& band);
+
 /// Reads values or names of labels with commas between them, as in `1,liver`; a name that holds one
 /// in quotes.
 /// @throws Error BadValue: a place is empty
 [[nodiscard]] std::vector<std::string> parseLabels(std::string_view text, std::string_view what);
+
+/// The same as text.
+[[nodiscard]] std::string labelsText(const std::vector<std::string>& labels);
 
 /// A sequence of values that remembers them in the unit they were given in.
 struct Range

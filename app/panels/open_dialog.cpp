@@ -37,6 +37,7 @@ OpenDialog::OpenDialog(const QString& file, QWidget* parent)
   , why_(new QLabel)
   , series_(QFileInfo(file).isDir() ? new QLineEdit : nullptr)
   , level_(isImageFile(file) ? new QLineEdit : nullptr)
+  , band_(isImageFile(file) ? new QLineEdit : nullptr)
   , label_(isImageFile(file) ? new QLineEdit : nullptr)
   , unit_(new QComboBox)
 {
@@ -60,6 +61,10 @@ OpenDialog::OpenDialog(const QString& file, QWidget* parent)
     level_->setPlaceholderText(tr("e.g. 0.5 for a mask of 0 and 1"));
     level_->setToolTip(tr("Value of the image at the surface, between those outside and inside"));
     rows->addRow(tr("Level of the surface"), level_);
+    band_->setObjectName("values");
+    band_->setPlaceholderText(tr("of a CT, e.g. 200:3071 for bone"));
+    band_->setToolTip(tr("Lowest and highest value of what is the body"));
+    rows->addRow(tr("or range of its values"), band_);
     label_->setObjectName("label");
     label_->setPlaceholderText(tr("of a label map, e.g. 5, or 1,2 for both"));
     label_->setToolTip(tr("Values of the label map that are opened, with commas between"));
@@ -165,21 +170,20 @@ void OpenDialog::setReason(const QString& why)
 MeshSource OpenDialog::source() const
 {
   MeshSource source{ .file = file_, .unit = parseUnit(unit_->currentText().toStdString()) };
-  const std::string level = level_ != nullptr ? level_->text().toStdString() : "";
-  const std::string labels = label_ != nullptr ? label_->text().toStdString() : "";
-  source.part.series = series_ != nullptr ? series_->text().trimmed().toStdString() : "";
-  if (!level.empty() && !labels.empty())
+  const auto typed = [](const QLineEdit* field)
+  { return field != nullptr ? field->text().trimmed().toStdString() : std::string(); };
+  const std::string level = typed(level_);
+  const std::string band = typed(band_);
+  const std::string labels = typed(label_);
+  if ((level.empty() ? 0 : 1) + (band.empty() ? 0 : 1) + (labels.empty() ? 0 : 1) > 1)
   {
-    throw Error(ErrorCode::BadValue, "Level and Label: both are given; give the one or the other");
+    throw Error(ErrorCode::BadValue, "Level, range and label: more than one is given; give one");
   }
-  if (!level.empty())
-  {
-    source.part.level = parseNumber(level, "Level");
-  }
-  if (!labels.empty())
-  {
-    source.part.labels = parseLabels(labels, "Label");
-  }
+  ImagePart& part = source.part;
+  part.series = typed(series_);
+  part.level = level.empty() ? std::nullopt : std::optional(parseNumber(level, "Level"));
+  part.band = band.empty() ? std::nullopt : std::optional(parseBand(band, "Range"));
+  part.labels = labels.empty() ? std::vector<std::string>() : parseLabels(labels, "Label");
   return source;
 }
 

@@ -16,7 +16,7 @@ namespace palp
 {
 
 /// Asks for what a file does not tell: the unit of its coordinates and, of an image, the level of
-/// the surface or the labels of the body, which are listed to be ticked.
+/// the surface, the range of the body's values, or its labels, which are listed to be ticked.
 class OpenDialog : public QDialog
 {
   Q_OBJECT
@@ -48,6 +48,7 @@ private:
   QLabel* why_;
   QLineEdit* series_; // null: of a folder alone
   QLineEdit* level_;  // null: a surface has none
+  QLineEdit* band_;   // likewise
   QLineEdit* label_;  // likewise
   QComboBox* unit_;
   QCheckBox* areOrgans_ = nullptr; // null: there are not several labels

@@ -44,6 +44,26 @@ PlacedNodule readNodule(JsonObject object)
   return nodule;
 }
 
+ImagePart readPart(JsonObject& object)
+{
+  ImagePart part;
+  parseAt(
+    object, "series", [&](const std::string& text) { part.series = text; }, &JsonObject::number);
+  parseAt(
+    object, "level", [&](const std::string& text) { part.level = parseNumber(text, "--level"); },
+    &JsonObject::number);
+  parseAt(
+    object, "values", [&](const std::string& text) { part.band = parseBand(text, "--values"); });
+  parseAt(
+    object, "label", [&](const std::string& text) { part.labels = parseLabels(text, "--label"); },
+    &JsonObject::number);
+  if ((part.level ? 1 : 0) + (part.band ? 1 : 0) + (part.labels.empty() ? 0 : 1) > 1)
+  {
+    object.refuse("label", "more than one of level, values and label is given; give one");
+  }
+  return part;
+}
+
 } // namespace
 
 MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
@@ -56,17 +76,7 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
   }
   const std::string file = object.text("file", "");
   const std::string haptic = object.text("haptic", "");
-  parseAt(
-    object, "series", [&](const std::string& text) { mesh.part.series = text; },
-    &JsonObject::number);
-  parseAt(
-    object, "level",
-    [&](const std::string& text) { mesh.part.level = parseNumber(text, "--level"); },
-    &JsonObject::number);
-  parseAt(
-    object, "label",
-    [&](const std::string& text) { mesh.part.labels = parseLabels(text, "--label"); },
-    &JsonObject::number);
+  mesh.part = readPart(object);
   parseAt(object, "unit", [&](const std::string& text) { mesh.unit = parseUnit(text); });
   readFrame(object.object("frame"), mesh);
   for (const JsonObject& nodule : object.objects("nodules"))
@@ -94,10 +104,6 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
   if (mesh.bundled.empty() == file.empty())
   {
     object.refuse("file", "give either a file or the name of a bundled surface");
-  }
-  if (mesh.part.level && !mesh.part.labels.empty())
-  {
-    object.refuse("label", "both are given, level and label; give the one or the other");
   }
   if (!haptic.empty() && file.empty())
   {

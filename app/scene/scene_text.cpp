@@ -71,6 +71,26 @@ private:
     return words.at(static_cast<std::size_t>(value));
   }
 
+  static void addPart(Json& mesh, const ImagePart& part)
+  {
+    if (!part.series.empty())
+    {
+      mesh["series"] = part.series;
+    }
+    if (part.level)
+    {
+      mesh["level"] = shortest(*part.level);
+    }
+    if (part.band)
+    {
+      mesh["values"] = bandText(*part.band);
+    }
+    if (!part.labels.empty())
+    {
+      mesh["label"] = labelsText(part.labels);
+    }
+  }
+
   [[nodiscard]] Json mesh(const MeshSource& source) const
   {
     Json mesh;
@@ -86,23 +106,7 @@ private:
     {
       mesh["haptic"] = file(source.haptic);
     }
-    if (!source.part.series.empty())
-    {
-      mesh["series"] = source.part.series;
-    }
-    if (source.part.level)
-    {
-      mesh["level"] = shortest(*source.part.level);
-    }
-    if (!source.part.labels.empty())
-    {
-      std::string labels;
-      for (const std::string& label : source.part.labels)
-      {
-        labels.append(labels.empty() ? "" : ",").append(label);
-      }
-      mesh["label"] = labels;
-    }
+    addPart(mesh, source.part);
     if (source.unit)
     {
       mesh["unit"] = unitName(*source.unit);

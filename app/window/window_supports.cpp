@@ -42,12 +42,8 @@ QStringList argumentsOf(const MeshSource& source)
   source.unit ? add("--unit", unitName(*source.unit)) : void();
   source.part.series.empty() ? void() : add("--series", source.part.series);
   source.part.level ? add("--level", shortest(*source.part.level)) : void();
-  std::string labels;
-  for (const std::string& label : source.part.labels)
-  {
-    labels.append(labels.empty() ? "" : ",").append(label);
-  }
-  labels.empty() ? void() : add("--label", labels);
+  source.part.band ? add("--values", bandText(*source.part.band)) : void();
+  source.part.labels.empty() ? void() : add("--label", labelsText(source.part.labels));
   return words;
 }
 

@@ -264,11 +264,10 @@ FileSurface readFile(
 {
   constexpr double kRead = 0.6; // about, of all the time
   const Format& format = checkedFormat(file, part);
-  if (format.read && (part.level || !part.labels.empty()))
+  if (format.read && (part.level || part.band || !part.labels.empty()))
   {
-    refuse(file,
-      std::string("a surface, not an image; leave the ") + (part.level ? "level" : "label") +
-        " out");
+    const char* what = part.level ? "level" : part.band ? "values" : "label";
+    refuse(file, std::string("a surface, not an image; leave the ") + what + " out");
   }
   return withoutVtkErrors(file, format,
     [&]

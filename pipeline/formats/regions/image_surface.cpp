@@ -136,14 +136,14 @@ std::vector<LabelGroup> wantedLabels(const PatientImage& volume, const std::vect
 FileSurface imageSurface(const PatientImage& volume, const ImagePart& part, const std::string& name)
 {
   checkVolume(volume, name);
-  const ImageValues values = valuesOf(*volume.image);
   const bool isByLabel = !part.labels.empty();
+  const ImageValues values = part.band ? ImageValues{} : valuesOf(*volume.image);
   isByLabel ? checkNumbers(values, name) : void();
   const std::vector<Label> known = isByLabel ? labelsOf(volume, values) : std::vector<Label>();
   checkApart(known, name);
-  ImageRegion region = isByLabel
-    ? regionOfLabels(volume, chosenLabels(known, part.labels, volume, name))
-    : levelOf(volume, part, values, name);
+  ImageRegion region = part.band ? regionOfBand(volume, *part.band, name)
+    : isByLabel ? regionOfLabels(volume, chosenLabels(known, part.labels, volume, name))
+                : levelOf(volume, part, values, name);
   region.notes.insert(region.notes.begin(), volume.notes.begin(), volume.notes.end());
   return bodyOf(volume, std::move(region), part.components, name).surface;
 }

@@ -6,6 +6,7 @@
 #include "tests/support/process.h"
 
 #include <QCheckBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 
@@ -40,6 +41,31 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
   EXPECT_TRUE(dialog.organs().empty()) << "one body of both";
   list->item(0)->setCheckState(Qt::Unchecked);
   EXPECT_EQ(dialog.source().part.labels, std::vector<std::string>{ "7" });
+}
+
+TEST(OpenDialog, TakesWhatHasValuesInARange)
+{
+  test::application();
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = test::writeLabelMap(folder.path() / "a.mha");
+  OpenDialog dialog(QString::fromStdString(file.string()));
+  auto* values = dialog.findChild<QLineEdit*>("values");
+  const auto why = [&] { return dialog.findChild<QLabel*>("why")->text().toStdString(); };
+  const auto isTaken = [&](const char* text)
+  {
+    values->setText(text);
+    dialog.setResult(QDialog::Rejected);
+    dialog.accept();
+    return dialog.result() == QDialog::Accepted;
+  };
+  EXPECT_FALSE(isTaken("9:1"));
+  EXPECT_NE(why().find("'9:1' is empty"), std::string::npos) << why();
+  EXPECT_TRUE(isTaken(" 1.5:9 "));
+  EXPECT_EQ(dialog.source().part.band, (std::array{ 1.5, 9.0 }));
+  EXPECT_NEAR(readFileSurface(file, dialog.source().part).field, 60.0, 1e-9);
+  dialog.findChild<QLineEdit*>("level")->setText("2");
+  EXPECT_FALSE(isTaken("1.5:9"));
+  EXPECT_NE(why().find("more than one is given"), std::string::npos) << why();
 }
 
 // as 3D Slicer numbers the segments of each layer anew

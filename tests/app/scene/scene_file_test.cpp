@@ -93,6 +93,22 @@ TEST_F(SceneFile, TakesAMeasuredTissueByNameUnlessItSaysMore)
     << refusal(document.dump());
 }
 
+TEST_F(SceneFile, TakesLevelValuesOrLabelsOfAnImage)
+{
+  const auto with = [](const json& mesh)
+  {
+    json document = least();
+    document["meshes"] = json::array({ mesh });
+    return refusal(document.dump());
+  };
+  const std::string several = "mine.json: /meshes/0/label: more than one of level, values and ";
+  EXPECT_TRUE(with({ { "file", "a" }, { "level", 1 }, { "label", 5 } }).starts_with(several));
+  EXPECT_TRUE(with({ { "file", "a" }, { "level", 1 }, { "values", "1:2" } }).starts_with(several));
+  EXPECT_TRUE(with({ { "file", "a" }, { "label", 1 }, { "values", "1:2" } }).starts_with(several));
+  EXPECT_TRUE(with({ { "file", "a" }, { "values", "3:2" } })
+                .starts_with("mine.json: /meshes/0/values: '3:2' is empty"));
+}
+
 TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
 {
   const auto with = [](const char* patch)
@@ -123,8 +139,6 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
     { R"({"meshes": [{"file": "a.stl", "unit": "inch"}]})", "mine.json: /meshes/0/unit: " },
     { R"({"meshes": [{"file": "a.mha", "level": "high"}]})", "mine.json: /meshes/0/level: " },
     { R"({"meshes": [{"file": "a.mha", "label": "5,,7"}]})", "mine.json: /meshes/0/label: '5,,7'" },
-    { R"({"meshes": [{"file": "a.mha", "level": 1, "label": 5}]})",
-      "mine.json: /meshes/0/label: both are given" },
     { R"({"meshes": [{"bundled": "liver", "frame": {"origin": ["1mm"]}}]})",
       "mine.json: /meshes/0/frame/origin: must be three" },
     { R"({"dent": {"layer": "thick"}})", "mine.json: /dent/layer: " },

@@ -63,9 +63,12 @@ protected:
   {
     ScenePlan plan;
     plan.name = "a \"title\" é";
+    const std::vector<ImagePart> parts{ { .level = between(-1.0, 200.0) },
+      { .labels = { "tumor, left", "5" } },
+      { .band = { { between(-1e3, 0.0), between(0.0, 3e3) } } } };
     plan.meshes = { { .bundled = "liver" },
       { .file = "/data/liver.nii.gz",
-        .part = { .level = between(-1.0, 200.0), .labels = {} },
+        .part = parts[below(3)],
         .unit = LengthUnit::Centimeter,
         .origin = place(10.0),
         .rotation = place(6.2),
@@ -82,7 +85,7 @@ protected:
     tissue.options.constitution = ConstitutiveModel::Linear;
     if (i_++ % 2 == 0) // nodules are known neither below coatings nor over time
     {
-      plan.meshes[1].nodules = { { place(0.3), between(2e-3, 0.02), between(1.1, 40.0) } };
+      plan.meshes.back().nodules = { { place(0.3), between(2e-3, 0.02), between(1.1, 40.0) } };
     }
     else
     {
@@ -133,7 +136,7 @@ TEST_F(SceneText, ReadsBackToTheLastBit)
     ASSERT_EQ(after.meshes.size(), 2U);
     EXPECT_EQ(after.meshes[0].bundled, "liver");
     EXPECT_EQ(after.meshes[1].file, before.meshes[1].file);
-    EXPECT_EQ(after.meshes[1].part.level, before.meshes[1].part.level);
+    EXPECT_TRUE(after.meshes[1].part == before.meshes[1].part);
     EXPECT_EQ(after.meshes[1].unit, before.meshes[1].unit);
     EXPECT_EQ(after.meshes[1].origin, before.meshes[1].origin);
     EXPECT_EQ(after.meshes[1].rotation, before.meshes[1].rotation);

@@ -263,6 +263,18 @@ TEST_F(Images, ALabelThatFillsTheImageIsABox)
   EXPECT_NEAR(volumeMm3(*all.mesh), box, 0.01 * box);
 }
 
+// 2, 5 and 7 are three of its labels
+TEST_F(Images, ARangeOfValuesIsOneBodyOfWhatHasThem)
+{
+  const auto file = write<vtkMetaImageWriter>("parts.mha", *labels());
+  const auto volumeOf = [&](const ImagePart& part)
+  { return volumeMm3(*readSurface(file, LengthUnit::Millimeter, part).mesh); };
+  EXPECT_EQ(volumeOf({ .band = { { 1.5, 5.0 } } }), volumeOf({ .labels = { "2", "5" } }));
+  EXPECT_EQ(volumeOf({ .band = { { 5.0, 5.0 } } }), volumeOf({ .labels = { "5" } }));
+  EXPECT_NE(refusal(file, { .band = { { 7.5, 99.0 } } }).find("no voxel has a value from 7.5"),
+    std::string::npos);
+}
+
 // one that fills the image is a label, too; what is no number is neither label nor background
 TEST_F(Images, AMaskIsALabelMapAndHasNumbersOnly)
 {
