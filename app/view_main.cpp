@@ -6,6 +6,7 @@
 #include "app/program/build_trace.h"
 #include "app/program/machine.h"
 #include "app/session/session.h"
+#include "app/shell/message_bar.h"
 #include "app/shell/theme.h"
 #include "app/window/window.h"
 
@@ -79,6 +80,30 @@ void refuseToAbort(QtMsgType type, const QMessageLogContext&, const QString& tex
   }
 }
 
+// What nobody caught is told in the window, and the presses in it stay: Qt would end the program.
+class Application : public QApplication
+{
+public:
+  using QApplication::QApplication;
+
+  bool notify(QObject* receiver, QEvent* event) override
+  {
+    try
+    {
+      return QApplication::notify(receiver, event);
+    }
+    catch (const std::exception& error)
+    {
+      for (const QWidget* window : topLevelWidgets())
+      {
+        auto* bar = window->findChild<palp::MessageBar*>();
+        bar != nullptr ? bar->warn(error.what()) : void();
+      }
+      return true;
+    }
+  }
+};
+
 int view(const palp::ViewOptions& options)
 {
   if (!qEnvironmentVariableIsSet("DISPLAY") && !qEnvironmentVariableIsSet("WAYLAND_DISPLAY"))
@@ -96,7 +121,7 @@ int view(const palp::ViewOptions& options)
   char name[] = "palp";
   char* words[] = { name, nullptr };
   const QtMessageHandler before = qInstallMessageHandler(refuseToAbort);
-  QApplication application(count, words);
+  Application application(count, words);
   qInstallMessageHandler(before);
   if (const palp::Theme theme = palp::rememberedTheme(); theme != palp::Theme::System)
   {

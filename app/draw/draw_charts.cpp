@@ -27,6 +27,11 @@ void drawCharts(const std::filesystem::path& folder)
   window->SetMultiSamples(sheet.ending == ".png" ? 8 : 0);
   window->SetDPI(sheet.dpi);
   showPlots(*window, job->plots);
+  window->Render();
+  for (const auto& plot : job->plots)
+  {
+    plot->chart().SpaceTicks();
+  }
   writePlots(job->plots, *window, folder / (kChartsMade + sheet.ending));
 }
 

@@ -54,6 +54,21 @@ void write(const fs::path& folder, const ScenePlan& plan, const Recording& press
   fs::rename(stage, folder);
 }
 
+void setNames(const fs::path& folder, const std::vector<std::string>& names)
+{
+  std::error_code none; // it may be gone, as the oldest are
+  const fs::path aside = folder.parent_path() / ('.' + folder.filename().string());
+  names.empty() ? fs::rename(folder, aside, none) : fs::rename(aside, folder, none);
+  if (!names.empty() && isExport(folder))
+  {
+    const fs::file_time_type made = fs::last_write_time(folder);
+    ScenePlan plan = readExport(folder).plan;
+    plan.recording ? void(plan.recording->names = names) : void();
+    writeScene(folder, plan, "");
+    fs::last_write_time(folder, made); // by which presses stay in their order
+  }
+}
+
 } // namespace
 
 fs::path Autosave::usualRoot()
@@ -128,30 +143,35 @@ void Autosave::save(ScenePlan plan, Recording press)
   }
   ++count_;
   later(
-    [folder = folderOf(count_), oldest = folderOf(count_ - most_), plan = std::move(plan),
-      press = std::move(press)]
+    [this, next = Unwritten{ count_, std::move(plan), std::move(press), {} }]() mutable
     {
-      write(folder, plan, press);
-      fs::remove_all(oldest);
+      fs::remove_all(folderOf(next.number - most_));
+      unwritten_.push_back(std::move(next));
+      std::erase_if(unwritten_,
+        [&](const Unwritten& one) { return one.number <= unwritten_.back().number - most_; });
+      writeAll();
     });
+}
+
+// until one cannot be
+void Autosave::writeAll()
+{
+  while (!unwritten_.empty())
+  {
+    const auto& [number, plan, press, names] = unwritten_.front();
+    write(folderOf(number), plan, press);
+    names ? setNames(folderOf(number), *names) : void();
+    unwritten_.erase(unwritten_.begin());
+  }
 }
 
 void Autosave::update(int press, std::vector<std::string> names)
 {
   later(
-    [folder = folderOf(press), names = std::move(names)]
+    [this, press, folder = folderOf(press), names = std::move(names)]
     {
-      std::error_code none; // it may be gone, as the oldest are
-      const fs::path aside = folder.parent_path() / ('.' + folder.filename().string());
-      names.empty() ? fs::rename(folder, aside, none) : fs::rename(aside, folder, none);
-      if (!names.empty() && isExport(folder))
-      {
-        const fs::file_time_type made = fs::last_write_time(folder);
-        ScenePlan plan = readExport(folder).plan;
-        plan.recording ? void(plan.recording->names = names) : void();
-        writeScene(folder, plan, "");
-        fs::last_write_time(folder, made); // by which presses stay in their order
-      }
+      const auto waiting = std::ranges::find(unwritten_, press, &Unwritten::number);
+      waiting != unwritten_.end() ? void(waiting->names = names) : setNames(folder, names);
     });
 }
 
@@ -178,6 +198,7 @@ void Autosave::clear(int last)
   {
     written_.wait();
   }
+  std::erase_if(unwritten_, [last](const Unwritten& one) { return one.number <= last; });
   std::error_code none;
   const std::string end = folderOf(std::min(last, count_)).filename();
   for (const fs::path& press : foldersIn(own_))

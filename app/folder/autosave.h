@@ -8,6 +8,7 @@
 #include <functional>
 #include <future>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ public:
   Autosave(const Autosave&) = delete;
   Autosave& operator=(const Autosave&) = delete;
 
+  /// What cannot be written is tried again with the next.
   /// @param plan   by which it is repeated
   /// @param press  its samples
   void save(ScenePlan plan, Recording press);
@@ -81,6 +83,16 @@ public:
   void undiscard();
 
 private:
+  // a press that could not be written
+  struct Unwritten
+  {
+    int number;
+    ScenePlan plan;
+    Recording press;
+    std::optional<std::vector<std::string>> names; // of update()
+  };
+
+  void writeAll();
   void later(std::function<void()> write);
   [[nodiscard]] std::vector<std::filesystem::path> ended() const;
 
@@ -88,8 +100,9 @@ private:
   std::filesystem::path own_; // in it; empty: could not be made
   Descriptor lock_;           // of it
   int most_;
-  int count_ = 0;             // of presses in it
-  std::future<void> written_; // all of them
+  int count_ = 0;                    // of presses in it
+  std::vector<Unwritten> unwritten_; // the oldest first; of the other thread while written_ is
+  std::future<void> written_;        // all of them
 };
 
 } // namespace palp

@@ -151,6 +151,17 @@ ChartSheet ChartSheet::of(
   }
   const ImageSize usual = usualSize(plots);
   const ImageSize size = wanted.value_or(usual);
+  constexpr double kLeastShare = 0.4; // of the height for a second chart, and so on
+  constexpr ImageSize kLeast{ .width = 200, .height = 150 };
+  const double least =
+    kLeast.height / std::pow(kLeastShare, static_cast<double>(plots.size()) - 1.0);
+  if (size.width < kLeast.width || size.height < least)
+  {
+    throw Error(ErrorCode::BadValue,
+      "size: " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+        " has no room for axes; give " + std::to_string(kLeast.width) + "x" +
+        std::to_string(std::lround(least)) + " or more");
+  }
   const double area = static_cast<double>(size.width) * size.height / usual.width / usual.height;
   const double growth = std::max(1.0, kUsualGrowth * std::sqrt(area));
   const double divisor = ending == ".png" ? 1.0 : growth; // lines are as sharp at any size

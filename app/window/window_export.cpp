@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 namespace palp
@@ -38,7 +39,8 @@ QString filesFoundIn(const std::filesystem::path& directory)
   QStringList found;
   for (const std::string& name : exportFiles())
   {
-    if (std::filesystem::exists(directory / name))
+    std::error_code none; // that it cannot be looked into is told by who writes there
+    if (std::filesystem::exists(directory / name, none))
     {
       found << QString::fromStdString(name);
     }

@@ -124,6 +124,10 @@ void Window::greet()
   {
     say(tr("Drag down on the liver to press it; H shows all keys and what the mouse does"));
   }
+  for (const std::string& note : session_.body().notes)
+  {
+    note.starts_with("warning: ") ? message_->warn(QString::fromStdString(note)) : void();
+  }
 }
 
 void Window::makeHelpMenu()

@@ -68,6 +68,12 @@ public:
   void ToggleCurveAt(const vtkVector2f& at);
 
   /**
+   * Leaves out numbers of the axes that have no room, as where letters have grown with a picture.
+   * For a chart that was drawn once, at the ranges that it has then.
+   */
+  void SpaceTicks();
+
+  /**
    * Takes over from another chart which axes are held and which curves are hidden.
    */
   void TakeViewOf(const vtkPalpChart& other);

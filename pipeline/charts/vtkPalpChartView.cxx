@@ -10,9 +10,11 @@
 #include <vtkAxis.h>
 #include <vtkBrush.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkPen.h>
 #include <vtkPlotArea.h>
 #include <vtkPlotLine.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 
 namespace
@@ -29,6 +31,37 @@ void setRange(vtkAxis& axis, double from, double to)
   }
 }
 
+double lengthOf(vtkAxis& axis)
+{
+  const double across = axis.GetPoint2()[0] - axis.GetPoint1()[0];
+  const double up = axis.GetPoint2()[1] - axis.GetPoint1()[1];
+  return std::max(1.0, std::hypot(across, up));
+}
+
+// at round numbers, some pixels apart at least; how many letters the longest of these has
+std::size_t setTicks(vtkAxis& axis, double apart)
+{
+  double low = axis.GetMinimum();
+  double high = axis.GetMaximum();
+  const double first = low;
+  const double last = high;
+  const double step =
+    vtkAxis::NiceMinMax(low, high, static_cast<float>(lengthOf(axis)), static_cast<float>(apart));
+  constexpr double kRounding = 1e-9; // of a step
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  std::size_t longest = 0;
+  for (double i = std::ceil(first / step - kRounding); i * step <= last + kRounding * step; ++i)
+  {
+    const std::string label = palp::readingText(i * step, step);
+    positions->InsertNextValue(i * step);
+    labels->InsertNextValue(label);
+    longest = std::max(longest, label.size());
+  }
+  axis.SetCustomTickPositions(positions, labels);
+  return longest;
+}
+
 std::vector<double> columnOf(vtkTable& table, vtkIdType column)
 {
   auto* array = vtkDataArray::SafeDownCast(table.GetColumn(column));
@@ -42,9 +75,7 @@ std::vector<double> columnOf(vtkTable& table, vtkIdType column)
 
 double pixelOf(vtkAxis& axis)
 {
-  const double across = axis.GetPoint2()[0] - axis.GetPoint1()[0];
-  const double up = axis.GetPoint2()[1] - axis.GetPoint1()[1];
-  return std::abs(axis.GetMaximum() - axis.GetMinimum()) / std::max(1.0, std::hypot(across, up));
+  return std::abs(axis.GetMaximum() - axis.GetMinimum()) / lengthOf(axis);
 }
 
 } // namespace
@@ -128,6 +159,24 @@ void vtkPalpChart::ToggleCurveAt(const vtkVector2f& at)
     {
       this->SetCurveShown(label, !this->IsCurveShown(label));
       return;
+    }
+  }
+}
+
+void vtkPalpChart::SpaceTicks()
+{
+  for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
+  {
+    constexpr double kLine = 20.0;  // [pixels] that a number takes where letters are as on a screen
+    constexpr double kLetter = 8.0; // and one of its letters
+    vtkAxis& axis = *this->GetAxis(side);
+    std::size_t letters = 0;
+    std::size_t longest = 5; // about
+    while (longest > letters && !axis.GetLogScaleActive())
+    {
+      letters = longest;
+      longest = setTicks(axis,
+        this->Scale * (side == vtkAxis::LEFT ? kLine : kLetter * static_cast<double>(letters)));
     }
   }
 }

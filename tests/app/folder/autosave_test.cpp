@@ -229,7 +229,12 @@ TEST_F(AutosaveTest, SaysOnceThatADiskIsFullAndGoesOn)
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_NE(said.find("File too large"), std::string::npos) << said;
   EXPECT_NO_THROW(mine.check());
-  mine.save(plan(), pressOf(10));
+  mine.update(1, { "renamed" });
+  mine.save(plan(), pressOf(10)); // with room again
+  ASSERT_TRUE(mine.has(1) && mine.has(2));
+  EXPECT_EQ(rowsIn(mine.folderOf(1)), 2000U);
+  EXPECT_EQ(
+    readExport(mine.folderOf(1)).plan.recording->names, std::vector<std::string>{ "renamed" });
 }
 
 TEST_F(AutosaveTest, DoesNothingWhereItsFolderCannotBeMade)

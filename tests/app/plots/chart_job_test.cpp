@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 #include <vector>
 #include <vtkAxis.h>
+#include <vtkDoubleArray.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
 #include <vtkRendererCollection.h>
+#include <vtkStringArray.h>
 
 namespace palp
 {
@@ -85,6 +87,57 @@ TEST(ChartSheet, GrowsItsLettersWithTheSize)
   EXPECT_EQ(2 * lines.size.width, usual.width);
   EXPECT_EQ(2 * lines.dpi, picture.dpi);
   EXPECT_THROW((void)ChartSheet::of(plots, "a.bmp", {}), Error);
+  for (const char* file : { "a.png", "a.svg" })
+  {
+    EXPECT_NO_THROW((void)ChartSheet::of(plots, file, ImageSize{ 200, 375 }));
+    EXPECT_THROW((void)ChartSheet::of(plots, file, ImageSize{ 200, 374 }), Error) << "two charts";
+    EXPECT_THROW((void)ChartSheet::of(plots, file, ImageSize{ 199, 1000 }), Error);
+  }
+}
+
+// each has a width of its own, of letters about 0.6 as wide as high
+TEST(ChartSheet, NumbersOfAnAxisStandApartAtAnySize)
+{
+  for (const ImageSize size : { ImageSize{ 400, 300 }, { 1600, 1000 }, { 3840, 2160 } })
+  {
+    for (const double range : { 0.0007, 0.02, 7.3, 12'000.0 })
+    {
+      Plots plots;
+      Plot& plot = *plots.emplace_back(std::make_unique<Plot>("", "depth [mm]", "force [N]"));
+      const std::vector<double> x{ 0.0, 0.5 * range, range };
+      plot.addLine("one", x, std::vector<double>{ 0.0, 0.3 * range, range }, { 0.0, 0.0, 0.8 });
+      const ChartSheet sheet = ChartSheet::of(plots, "a.png", size);
+      vtkNew<vtkRenderWindow> window;
+      window->SetOffScreenRendering(1);
+      window->SetSize(sheet.size.width, sheet.size.height);
+      window->SetDPI(sheet.dpi);
+      showPlots(*window, plots);
+      window->Render();
+      plot.chart().SpaceTicks();
+      window->Render();
+      const double letter = 12.0 * sheet.dpi / 72.0;
+      for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
+      {
+        vtkAxis& axis = *plot.chart().GetAxis(side);
+        vtkDoubleArray& ticks = *axis.GetTickPositions();
+        vtkStringArray& labels = *axis.GetTickLabels();
+        ASSERT_GE(ticks.GetNumberOfValues(), 2) << range;
+        const double length = side == vtkAxis::LEFT ? axis.GetPoint2()[1] - axis.GetPoint1()[1]
+                                                    : axis.GetPoint2()[0] - axis.GetPoint1()[0];
+        const double apart = length * (ticks.GetValue(1) - ticks.GetValue(0)) /
+          (axis.GetMaximum() - axis.GetMinimum());
+        std::size_t longest = 0;
+        for (vtkIdType i = 0; i < labels.GetNumberOfValues(); ++i)
+        {
+          longest = std::max(longest, labels.GetValue(i).size());
+          EXPECT_NEAR(std::stod(labels.GetValue(i)), ticks.GetValue(i), 1e-3 * range);
+        }
+        const double needed = side == vtkAxis::LEFT ? 1.2 : 0.6 * static_cast<double>(longest);
+        EXPECT_GT(apart, needed * letter) << size.width << ", " << range << ", side " << side;
+      }
+      window->GetRenderers()->RemoveAllItems(); // the charts outlive it
+    }
+  }
 }
 
 } // namespace
