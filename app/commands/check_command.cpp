@@ -1,26 +1,18 @@
+#include "app/check/check_text.h"
+#include "app/check/checked_surface.h"
 #include "app/commands/commands.h"
 #include "app/input/mesh_file.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"
-#include "app/input/quantity.h"
-#include "app/program/interrupt.h"
 #include "app/program/output.h"
-#include "app/program/progress_line.h"
 #include "calibration/figures/table.h"
 #include "haptics/error.h"
-#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
-#include "haptics/units.h"
-#include "pipeline/health/mesh_health.h"
-#include "pipeline/health/mesh_repair.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -34,11 +26,7 @@ namespace palp
 namespace
 {
 
-using namespace units::literals;
-using units::toMillimeters;
-
 constexpr int kDisturbed = 7; // exit code
-constexpr int kPrinted = 5;   // digits
 
 struct CheckOptions
 {
@@ -49,127 +37,25 @@ struct CheckOptions
   bool overwrite = false;
 };
 
-// what becomes of a fault
-struct Consequence
+std::string reportOf(const MeshHealth& health, const std::filesystem::path& file)
 {
-  const char* onLoading;
-  const char* inAPress; // empty: nothing
-};
-
-Consequence consequenceOf(Fault fault)
-{
-  switch (fault)
+  std::string report = "# " + printable(file.filename().string()) + ": ";
+  for (const std::string& line : measuresOf(health))
   {
-    case Fault::DuplicatePoint:
-      return { "merged", "" };
-    case Fault::UnusedPoint:
-    case Fault::Degenerate:
-    case Fault::InnerPiece:
-      return { "left out", "" };
-    case Fault::Flipped:
-      return { "turned", "" };
-    case Fault::DuplicateTriangle:
-    case Fault::NonManifoldEdge:
-      return { "kept", "inside and outside are not told apart near there" };
-    case Fault::Sliver:
-      return { "kept", "normal and curvature are rough there" };
-    case Fault::NonManifoldPoint:
-      return { "kept", "the normal is mixed at that point" };
-    case Fault::Hole:
-      return { "kept", "to be pressed from the front; flagged as an edge near there" };
-    case Fault::SelfIntersection:
-      return { "what is buried is left out, where closed", "the depth is uncertain near there" };
+    report += (report.ends_with('\n') ? "# " : "") + line + '\n';
   }
-  return { "kept", "" };
-}
-
-bool disturbs(const MeshHealth& health)
-{
-  return std::ranges::any_of(
-    health.findings, [](const Finding& one) { return *consequenceOf(one.fault).inAPress != '\0'; });
-}
-
-std::string text(double value)
-{
-  return figures::textOf(value, kPrinted);
-}
-
-std::string inMillimeters(const Eigen::Vector3d& place)
-{
-  return text(toMillimeters(place.x())) + "," + text(toMillimeters(place.y())) + "," +
-    text(toMillimeters(place.z()));
-}
-
-figures::Table tableOf(const MeshHealth& health)
-{
-  figures::Table table{ .name = "check",
-    .caption = "Faults",
-    .columns = { "fault", "count", "place_mm", "longest_around_mm", "on_loading", "in_a_press" } };
-  for (const Finding& one : health.findings)
-  {
-    const auto [onLoading, inAPress] = consequenceOf(one.fault);
-    table.rows.push_back(
-      { std::string(nameOf(one.fault)), std::to_string(one.count), inMillimeters(one.place),
-        one.size > 0.0 ? figures::Cell(toMillimeters(one.size)) : figures::Cell(std::string()),
-        std::string(onLoading), std::string(inAPress) });
-  }
-  return table;
-}
-
-std::string piecesOf(const MeshHealth& health)
-{
-  constexpr std::size_t kMost = 5;
-  std::string line = counted(health.pieces.size(), "piece");
-  for (std::size_t i = 0; i < std::min(kMost, health.pieces.size()); ++i)
-  {
-    const MeshPiece& piece = health.pieces[i];
-    line += (i == 0 ? ": " : "; ") + counted(piece.triangles, "triangle") +
-      (piece.closed ? ", closed, " + text(units::toMilliliters(std::abs(piece.volume))) + " ml"
-                    : ", open");
-  }
-  return line + (health.pieces.size() > kMost ? "; ..." : "");
-}
-
-// how many edges there are of each length, by octaves
-std::string edgesOf(const std::vector<double>& lengths)
-{
-  std::map<int, std::size_t> octaves;
-  for (const double length : lengths)
-  {
-    ++octaves[static_cast<int>(std::floor(std::log2(std::max(toMillimeters(length), 1e-6))))];
-  }
-  std::string line = counted(lengths.size(), "edge") + " of " +
-    text(toMillimeters(lengths.front())) + " to " + text(toMillimeters(lengths.back())) +
-    " mm, median " + text(toMillimeters(lengths[lengths.size() / 2])) + " mm:";
-  for (const auto& [octave, count] : octaves)
-  {
-    line += " " + std::to_string(count) + " from " + text(std::exp2(octave)) + " mm,";
-  }
-  line.back() = '\n';
-  return line;
-}
-
-std::string reportOf(const MeshHealth& health, const std::string& name)
-{
-  const Eigen::Vector3d size = health.high - health.low;
-  std::string report = "# " + name + ": " + counted(health.points, "point") + ", " +
-    counted(health.triangles, "triangle") + ", " + text(toMillimeters(size.x())) + " x " +
-    text(toMillimeters(size.y())) + " x " + text(toMillimeters(size.z())) + " mm\n# " +
-    piecesOf(health) + "\n";
-  report += health.edgeLengths.empty() ? "" : "# " + edgesOf(health.edgeLengths);
-  return report + figures::csv(tableOf(health), kPrinted);
+  return report + figures::csv(faultTable(health), kCheckDigits);
 }
 
 // the surface as the file has it, each triangle with the number of its last fault, from 1
-vtkSmartPointer<vtkPolyData> markedSurface(std::span<const Eigen::Vector3d> points,
-  std::span<const Triangle> triangles, const MeshHealth& health)
+vtkSmartPointer<vtkPolyData> markedSurface(const CheckedSurface& checked)
 {
-  auto mesh = makePolyData(points, triangles);
+  auto mesh = makePolyData(checked.points, checked.triangles);
   vtkNew<vtkUnsignedCharArray> marks;
   marks->SetName("fault");
-  marks->SetNumberOfValues(static_cast<vtkIdType>(triangles.size()));
+  marks->SetNumberOfValues(static_cast<vtkIdType>(checked.triangles.size()));
   marks->FillValue(0);
-  for (const Finding& one : health.findings)
+  for (const Finding& one : checked.health.findings)
   {
     for (const int triangle : one.triangles)
     {
@@ -201,9 +87,10 @@ public:
     }
   }
 
-  void write(const std::filesystem::path& file, vtkPolyData& mesh, const std::string& space) const
+  // where a file waits until all are written
+  [[nodiscard]] std::filesystem::path staged(const std::filesystem::path& file) const
   {
-    writeSurface(folders_.at(folderOf(file))->stage() / file.filename(), mesh, space);
+    return folders_.at(folderOf(file))->stage() / file.filename();
   }
 
   void publish() const
@@ -224,38 +111,13 @@ private:
   std::map<std::filesystem::path, OutputFolder*> folders_;
 };
 
-std::string doneIn(const RepairedMesh& repaired)
-{
-  std::string line;
-  const auto add = [&](std::size_t count, const char* what, const char* many, const char* done)
-  { line += count > 0 ? (line.empty() ? "" : ", ") + counted(count, what, many) + done : ""; };
-  add(repaired.merged, "point", "points", " merged or left out");
-  add(repaired.removed, "triangle", "triangles", " removed");
-  add(repaired.cut, "triangle", "triangles", " added where points lay on edges of others");
-  add(repaired.split, "point", "points", " added where parts met");
-  add(repaired.slivers, "sliver", "slivers", " removed");
-  add(repaired.filled, "hole", "holes", " closed");
-  add(repaired.turned, "triangle", "triangles", " turned");
-  line = line.empty() ? "nothing to repair" : line;
-  add(repaired.seamsLeft, "edge", "edges",
-    " left open beside others, as not all of a seam is within 1/50 of its edges");
-  add(repaired.splitLeft, "point", "points", " left where parts meet, as these would cross");
-  add(repaired.sliversLeft, "sliver", "slivers", " left, as the surface would cross itself");
-  add(repaired.holesLeft, "hole", "holes", " left, as what closes them would cross the surface");
-  return line;
-}
-
 // before any work
 void checkNames(const CheckOptions& options)
 {
   const auto refuse = [](const std::filesystem::path& file, const std::string& what)
   { throw Error(ErrorCode::BadValue, printable(file.string()) + ": " + what); };
-  constexpr std::array kinds{ ".vtp", ".stl", ".ply", ".obj" };
   const std::filesystem::path& repaired = options.repaired;
-  if (!repaired.empty() && std::ranges::count(kinds, repaired.extension().string()) == 0)
-  {
-    refuse(repaired, "not a kind of file written here; give .vtp, .stl, .ply or .obj");
-  }
+  repaired.empty() ? void() : checkRepairName(repaired);
   if (!options.faults.empty() && options.faults.extension() != ".vtp")
   {
     refuse(options.faults, "only .vtp has a place for faults; give such a file");
@@ -271,36 +133,29 @@ void checkNames(const CheckOptions& options)
 void runCheck(const CheckOptions& options)
 {
   checkNames(options);
-  const std::filesystem::path& file = options.source.file;
-  const FileSurface read = readFileSurface(file, options.source.part);
-  const LoadedSurface loaded = madeReady(read, file, options.source.unit);
-  for (const std::string& note : loaded.notes)
+  const CheckedSurface checked =
+    checkFile(options.source.file, options.source.unit, options.source.part);
+  for (const std::string& note : checked.notes)
   {
     std::cerr << "palp: " << note << '\n';
   }
-  std::vector<Eigen::Vector3d> points = read.points;
-  for (Eigen::Vector3d& point : points)
-  {
-    point *= unitLength(loaded.unit);
-  }
-  const ProgressLine progress("looking for faults");
-  MeshHealth health = healthOf(points, read.triangles);
-  std::cout << reportOf(health, printable(file.filename().string()));
+  std::cout << reportOf(checked.health, checked.file);
   const OutputFiles out(options);
   if (!options.faults.empty())
   {
-    out.write(options.faults, *markedSurface(points, read.triangles, health), read.space);
+    writeSurface(out.staged(options.faults), *markedSurface(checked), checked.space);
   }
+  bool isDisturbed = disturbs(checked.health);
   if (!options.repaired.empty())
   {
-    const RepairedMesh repaired = repairedMesh(points, read.triangles, options.largestHole);
-    health = healthOf(repaired.points, repaired.triangles);
-    out.write(options.repaired, *makePolyData(repaired.points, repaired.triangles), read.space);
-    std::cout << "# repaired: " << doneIn(repaired) << '\n'
-              << reportOf(health, printable(options.repaired.filename().string()));
+    const RepairedSurface repaired = repairedSurface(checked, options.largestHole);
+    isDisturbed = disturbs(repaired.health);
+    writeRepaired(out.staged(options.repaired), repaired, checked);
+    std::cout << "# repaired: " << doneIn(repaired.mesh) << '\n'
+              << reportOf(repaired.health, options.repaired);
   }
   out.publish();
-  if (disturbs(health))
+  if (isDisturbed)
   {
     throw CLI::RuntimeError(kDisturbed);
   }
@@ -320,11 +175,7 @@ void addCheckCommand(CLI::App& app)
     "Surface to write, .vtp, .stl, .ply or .obj in mm: merged, oriented, without slivers, parted "
     "where it is not manifold");
   addParsed(*command, "--close-holes", "Length around the largest hole that --repair closes", "0mm",
-    [all](const std::string& text)
-    {
-      all->largestHole =
-        parseWithin(text, Quantity::Length, { 0.0, 10.0, "0mm to 10m" }, "--close-holes");
-    });
+    [all](const std::string& text) { all->largestHole = parseLargestHole(text, "--close-holes"); });
   command->add_option("--faults", options->faults,
     "Surface to write as it was read, .vtp, whose cell array fault numbers the fault of each "
     "triangle");

@@ -4,6 +4,7 @@
 #include "app/input/quantity.h"
 #include "app/input/tip_text.h"
 #include "app/input/tissue_presets.h"
+#include "app/program/data_files.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/units.h"
 #include "pipeline/surface_io/label_names.h"
@@ -29,6 +30,18 @@ double parseThreshold(const std::string& text)
 double parseDamping(const std::string& text)
 {
   return checkedDamping(parseQuantity(text, Quantity::Damping, "--damping"), "--damping");
+}
+
+std::filesystem::path MeshSource::shownFile() const
+{
+  return bundled.empty() ? file : dataFile("meshes/" + bundled + ".vtp");
+}
+
+std::filesystem::path MeshSource::feltFile() const
+{
+  return bundled == "liver" ? dataFile("meshes/liver_haptic.vtp")
+    : haptic.empty()        ? shownFile()
+                            : haptic;
 }
 
 Eigen::Isometry3d MeshSource::frame() const

@@ -38,6 +38,10 @@ struct MeshSource
   std::filesystem::path organ{};       ///< how it gives way as a whole, by `palp organ`; empty: not
   std::vector<std::string> supports{}; ///< where it rests, as text; those of the organ file
 
+  /// What is looked at, and what is felt: the same, or of fewer points.
+  [[nodiscard]] std::filesystem::path shownFile() const;
+  [[nodiscard]] std::filesystem::path feltFile() const;
+
   /// From the file's coordinates to the scene's [m].
   [[nodiscard]] Eigen::Isometry3d frame() const;
 

@@ -1,6 +1,5 @@
 #include "app/press/body.h"
 
-#include "app/program/data_files.h"
 #include "app/program/progress_line.h"
 #include "app/stiffness/stiffness_text.h"
 #include "app/supports/organ_seal.h"
@@ -128,14 +127,6 @@ std::shared_ptr<const ComplianceField> placedCompliance(
     table.young);
 }
 
-// what is felt of a surface: itself, or one of fewer points
-std::filesystem::path feltFile(const MeshSource& source, const std::filesystem::path& shown)
-{
-  return source.bundled == "liver" ? dataFile("meshes/liver_haptic.vtp")
-    : source.haptic.empty()        ? shown
-                                   : source.haptic;
-}
-
 // surface: of the only mesh, where it is read already
 SceneBody loadParts(
   const std::vector<MeshSource>& meshes, bool shown, const FileSurface* surface = nullptr)
@@ -148,10 +139,9 @@ SceneBody loadParts(
   std::optional<ProgressLine> progress;
   for (const MeshSource& source : meshes)
   {
-    const std::filesystem::path file =
-      source.bundled.empty() ? source.file : dataFile("meshes/" + source.bundled + ".vtp");
+    const std::filesystem::path file = source.shownFile();
     body.name.append(body.name.empty() ? "" : " + ").append(file.filename().string());
-    const std::filesystem::path felt = feltFile(source, file);
+    const std::filesystem::path felt = source.feltFile();
     const FileStamps before = stampsOf(felt);
     progress.emplace("reading " + printable(file.filename().string()));
     auto hashed = std::async(std::launch::async, describeFile, felt); // meanwhile

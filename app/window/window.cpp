@@ -1,5 +1,6 @@
 #include "app/window/window.h"
 
+#include "app/check/panel/surface_check.h"
 #include "app/folder/autosave.h"
 #include "app/graphs/chart_panel.h"
 #include "app/graphs/plot_panel.h"
@@ -149,9 +150,9 @@ Window::Window(Session& session, BuildTrace& trace)
 Window::~Window()
 {
   message_->disconnect(this); // it is hidden after the picture that it covers is gone
-  if (auto* supports = findChild<QDockWidget*>(tr("Supports")))
+  for (auto* dock : findChildren<QDockWidget*>()) // likewise
   {
-    supports->disconnect(this); // likewise
+    dock->disconnect(this);
   }
 }
 

@@ -12,8 +12,8 @@
 #include "app/shell/saves.h"
 #include "app/shell/window_memory.h"
 #include "app/sound/force_sound.h"
+#include "app/train/panel/search.h"
 #include "app/window/pictured.h"
-#include "app/window/search.h"
 #include "haptics/force/validity.h"
 #include "pipeline/charts/force_charts.h"
 #include "pipeline/figure/balls.h"
@@ -64,6 +64,7 @@ class TrainingPanel;
 class PressBar;
 class PressList;
 class SupportPainting;
+class SurfaceCheck;
 class BuildTrace;
 class ChartPanel;
 class PlotPanel;
@@ -88,8 +89,8 @@ public:
   /// Says how to begin, where nobody has yet.
   void greet();
   // What the menus do, once a file is chosen; a failure becomes a message, and false.
-  bool openFile(const QString& file);       // a body; asks for what the file does not tell
-  bool openFiles(const QStringList& files); // of any kind that is read, or folders
+  bool openFile(const QString& file, UnitChoice unit = {}); // a body; asks for what is not told
+  bool openFiles(const QStringList& files);                 // of any kind that is read, or folders
   bool loadPresses(const QString& folder, bool isAgain = false); // of an export; once, or asked
   bool saveScreenshot(const QString& file);
   // none: of what is shown
@@ -111,7 +112,6 @@ protected:
   void dropEvent(QDropEvent* event) override;
 
 private:
-  static constexpr const char* kScan = "Scan for devices…";
   void makeView();
   void makeDocks();
   void makeCharts();
@@ -133,11 +133,10 @@ private:
   void setRealistic(bool on);
   void addMarks(QMenu& menu);
   void addOpening(QMenu& file);
-  void addPanels(QMenu& menu);
   void addRecentFiles(QMenu& menu);
   bool openBody(const std::vector<MeshSource>& meshes, const std::vector<OrganPlan>& organs = {});
   bool openLabels(const MeshSource& image, std::vector<FileOrgan> labels);
-  bool openAsked(const QString& file);
+  bool openAsked(MeshSource source);
   [[nodiscard]] FileOrgans labelsIn(const QString& file);
   void openOther(const QString& file);
   void openScene(const QString& file);
@@ -148,7 +147,6 @@ private:
   void makeHelpMenu();
   void makeToolBar();
   void showBody();
-
   // of a scene with several organs
   void makeOrganList();
   void showOrgans();
@@ -182,6 +180,11 @@ private:
   void paintByPointer();
   void openSupports();
   [[nodiscard]] const SceneBody& supported() const;
+  void checkSurface();
+  void makeCheck();
+  void closeCheck();
+  void lookAtFault();
+  void repairSurface();
   // the search for hidden nodules
   void makeTraining();
   void showTraining();
@@ -311,7 +314,6 @@ private:
   const ScriptedDevice* scripted_ = nullptr; // that the bar plays
   bool barIsStale_ = false;                  // plays what is no longer there
   PlayOrder order_;                          // that it has
-
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
   std::vector<ChartPanel*> chartPanels_; // of charts_
   std::vector<ChartPanel*> undrawn_;     // of these, since they were refreshed
@@ -330,15 +332,13 @@ private:
   std::optional<MapWork::Made> map_; // of the body that is open
   bool mapIsStale_ = false;
   QAction* mapColors_ = nullptr;
-  QAction* clearMap_ = nullptr;
   std::optional<Search> search_;              // none: nothing is hidden
   TrainingPanel* training_ = nullptr;         // null: never shown
   std::unique_ptr<SupportPainting> painting_; // likewise
+  std::unique_ptr<SurfaceCheck> check_;       // likewise
   Autosave* autosave_ = nullptr;              // null: nobody wants it
   std::set<std::filesystem::path> loaded_;    // exports
   PlayBar* playBar_ = nullptr;
-  QAction* refinedExport_ = nullptr;
-  QAction* allSamplesExport_ = nullptr;
   QLabel* forceLabel_ = nullptr;
   MessageBar* message_ = nullptr;
   DiagnosticsPanel* diagnostics_ = nullptr;

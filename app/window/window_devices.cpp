@@ -13,6 +13,8 @@ namespace palp
 namespace
 {
 
+constexpr const char* kScan = "Scan for devices…";
+
 // the one in use first
 QStringList deviceNames(const Session& session, const std::vector<std::string>& others)
 {

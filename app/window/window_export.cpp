@@ -163,8 +163,8 @@ Exported Window::exported(const Pictured& seen)
     .calibration = seen.calibration,
     .parts = { partOf(session_, seen.recording) },
     .names = session_.presses().names() };
-  made.plan.allSamples = allSamplesExport_->isChecked();
-  made.plan.refined = refinedExport_->isChecked();
+  made.plan.allSamples = findChild<QAction*>("allSamplesExport")->isChecked();
+  made.plan.refined = findChild<QAction*>("refinedExport")->isChecked();
   made.plan.camera = seen.seenFrom.value_or(cameraPlace());
   return made;
 }

@@ -155,13 +155,13 @@ void Window::makeFileMenu()
   exporting->setObjectName("exportAction");
   exporting->setShortcut(kExport);
   qApp->installEventFilter(new KeysFromFields(this));
-  refinedExport_ = file->addAction(tr("Export the dent &refined"));
-  refinedExport_->setObjectName("refinedExport");
-  refinedExport_->setCheckable(true);
-  allSamplesExport_ = file->addAction(tr("Export samples &without contact, too"));
-  allSamplesExport_->setObjectName("allSamplesExport");
-  allSamplesExport_->setCheckable(true);
-  for (QAction* action : { curves, exporting, refinedExport_, allSamplesExport_ })
+  QAction* refined = file->addAction(tr("Export the dent &refined"));
+  refined->setObjectName("refinedExport");
+  refined->setCheckable(true);
+  QAction* allSamples = file->addAction(tr("Export samples &without contact, too"));
+  allSamples->setObjectName("allSamplesExport");
+  allSamples->setCheckable(true);
+  for (QAction* action : { curves, exporting, refined, allSamples })
   {
     action->setEnabled(session_.plan().records()); // without plots no sample is kept
   }
@@ -211,23 +211,23 @@ FileOrgans Window::labelsIn(const QString& file)
   }
 }
 
-bool Window::openFile(const QString& file)
+bool Window::openFile(const QString& file, UnitChoice unit)
 {
   if (!isFree())
   {
     return false;
   }
   bool isOpened = false;
-  attempt([&] { isOpened = openAsked(file); });
+  attempt([&] { isOpened = openAsked({ .file = file.toStdString(), .unit = unit }); });
   tellDevices();
   return isOpened;
 }
 
 // with what has to be asked for; throws what no answer to that mends
-bool Window::openAsked(const QString& file)
+bool Window::openAsked(MeshSource source)
 {
-  MeshSource source{ .file = file.toStdString() };
   checkExists(source);
+  const QString file = QString::fromStdString(source.file.string());
   std::vector<FileOrgan> organs; // labels of it, an organ each; none: it is one body
   std::optional<OpenDialog> dialog;
   bool opened = false;

@@ -48,6 +48,22 @@ QScrollArea* scrolled(QWidget* content)
   return area;
 }
 
+// listed when they are looked for, as some are made late
+void addPanels(QMainWindow& window, QMenu& menu)
+{
+  QMenu* panels = menu.addMenu(QMainWindow::tr("Pa&nels"));
+  panels->setObjectName("panels");
+  QObject::connect(panels, &QMenu::aboutToShow, &window,
+    [&window, panels]
+    {
+      panels->clear();
+      for (const QDockWidget* dock : window.findChildren<QDockWidget*>())
+      {
+        panels->addAction(dock->toggleViewAction());
+      }
+    });
+}
+
 } // namespace
 
 void Window::makeView()
@@ -276,7 +292,7 @@ void Window::makeViewMenu()
   mapColors_->setEnabled(false);
   connect(mapColors_, &QAction::toggled, this, &Window::showMap);
   view->addSeparator();
-  addPanels(*view);
+  addPanels(*this, *view);
   addThemes(*view);
   QAction* plots = view->addAction(tr("Section and comparison &plots"));
   plots->setObjectName("plotsAction");

@@ -24,9 +24,9 @@ void Window::addMap(QMenu& edit)
     .addAction(
       tr("Stiffness &map…"), this, [this] { askMap(); }, QKeySequence("Ctrl+M"))
     ->setObjectName("mapAction");
-  clearMap_ = edit.addAction(tr("Clear stiffness map"), this, [this] { dropMap(); });
-  clearMap_->setObjectName("clearMapAction");
-  clearMap_->setEnabled(false);
+  QAction* clear = edit.addAction(tr("Clear stiffness map"), this, [this] { dropMap(); });
+  clear->setObjectName("clearMapAction");
+  clear->setEnabled(false);
 }
 
 // the place of the organ that is chosen among those that are felt; 0 where there is one body
@@ -128,7 +128,7 @@ void Window::takeMap()
                              : tr("it is of the tool and the tissue before, and exported once "
                                   "these are taken back (Ctrl+Z)")));
   mapIsStale_ = false;
-  clearMap_->setEnabled(true);
+  findChild<QAction*>("clearMapAction")->setEnabled(true);
   mapColors_->setEnabled(true);
   mapColors_->setChecked(true);
   showMap();
@@ -139,7 +139,7 @@ void Window::dropMap()
   mapWork_.reset();
   map_.reset();
   mapIsStale_ = false;
-  clearMap_->setEnabled(false);
+  findChild<QAction*>("clearMapAction")->setEnabled(false);
   mapColors_->setChecked(false);
   mapColors_->setEnabled(false);
   showMap();

@@ -34,6 +34,7 @@ void Window::showBody()
   queued_.clear();
   dropMap();
   openSupports();
+  closeCheck();
 }
 
 // anew for other organs; none is shown for one body

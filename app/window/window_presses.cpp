@@ -112,6 +112,10 @@ void Window::makeEditMenu()
   addMap(*edit);
   edit->addAction(tr("S&upports…"), this, [this] { showSupports(); })
     ->setObjectName("supportsAction");
+  edit
+    ->addAction(
+      tr("&Check surface…"), this, [this] { checkSurface(); }, QKeySequence(Qt::Key_F7))
+    ->setObjectName("checkAction");
 }
 
 // there, as deep as then

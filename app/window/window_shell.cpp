@@ -103,21 +103,6 @@ void Window::openRecent(const QString& file)
   say(tr("%1 is there no longer; it is off the list").arg(file));
 }
 
-void Window::addPanels(QMenu& menu)
-{
-  QMenu* panels = menu.addMenu(tr("Pa&nels"));
-  panels->setObjectName("panels");
-  connect(panels, &QMenu::aboutToShow, this,
-    [this, panels]
-    {
-      panels->clear();
-      for (const QDockWidget* dock : findChildren<QDockWidget*>())
-      {
-        panels->addAction(dock->toggleViewAction());
-      }
-    });
-}
-
 void Window::greet()
 {
   if (memory_.isFirstTime())

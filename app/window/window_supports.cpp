@@ -4,7 +4,6 @@
 #include "app/organs/support_painting.h"
 #include "app/organs/support_panel.h"
 #include "app/panels/panel_area.h"
-#include "app/program/data_files.h"
 #include "app/shell/child_program.h"
 #include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
@@ -33,10 +32,8 @@ namespace
 QStringList argumentsOf(const MeshSource& source)
 {
   QStringList words;
-  const std::filesystem::path file = !source.haptic.empty() ? source.haptic
-    : source.bundled.empty()                                ? source.file
-                             : dataFile("meshes/" + source.bundled + ".vtp");
-  source.bundled == "liver" ? void() : words.push_back(QString::fromStdString(file.string()));
+  source.bundled == "liver" ? void()
+                            : words.push_back(QString::fromStdString(source.feltFile().string()));
   const auto add = [&words](const char* option, const std::string& value)
   { words << option << QString::fromStdString(value); };
   source.unit ? add("--unit", unitName(*source.unit)) : void();

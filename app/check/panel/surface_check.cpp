@@ -1,0 +1,136 @@
+#include "app/check/panel/surface_check.h"
+
+#include "app/check/check_text.h"
+#include "app/check/checked_surface.h"
+#include "app/check/panel/check_panel.h"
+#include "haptics/files/input_text.h"
+#include "haptics/surface/closest_point.h"
+
+#include <limits>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kLift = 0.003; // of the body's diagonal, as it may be shown coarser
+
+// so many that nobody misses the rest
+std::vector<FaultMarks::Corners> cornersOf(const std::vector<const Finding*>& findings,
+  const CheckedSurface& checked, const Eigen::Isometry3d& frame)
+{
+  constexpr std::size_t kMost = 50000;
+  std::size_t count = 0;
+  for (const Finding* finding : findings)
+  {
+    count += finding->triangles.size();
+  }
+  const std::size_t step = count / kMost + 1;
+  std::vector<FaultMarks::Corners> corners;
+  for (const Finding* finding : findings)
+  {
+    for (std::size_t i = 0; i < finding->triangles.size(); i += step)
+    {
+      FaultMarks::Corners& of = corners.emplace_back();
+      const Triangle& triangle = checked.triangles[static_cast<std::size_t>(finding->triangles[i])];
+      for (std::size_t k = 0; k < of.size(); ++k)
+      {
+        of.at(k) = frame * checked.points[static_cast<std::size_t>(triangle.at(k))];
+      }
+    }
+  }
+  return corners;
+}
+
+} // namespace
+
+SurfaceCheck::SurfaceCheck(vtkRenderer& renderer, CheckPanel& panel, std::function<void()> changed)
+  : panel_(panel)
+  , changed_(std::move(changed))
+  , marks_(renderer)
+{
+  QObject::connect(&panel, &CheckPanel::chosenChanged, &panel, [this] { draw(); });
+}
+
+void SurfaceCheck::open(std::shared_ptr<const CheckedSurface> checked,
+  std::shared_ptr<const Surface> felt, const Eigen::Isometry3d& frame)
+{
+  checked_ = std::move(checked);
+  felt_ = std::move(felt);
+  frame_ = frame;
+  const MeshHealth& health = checked_->health;
+  QString measures = QString::fromStdString(printable(checked_->file.filename().string())) + ": ";
+  for (const std::string& line : measuresOf(health))
+  {
+    measures += (measures.endsWith(": ") ? "" : "\n") + QString::fromStdString(line);
+  }
+  panel_.show(QString::fromStdString(verdictOf(health)), measures, faultTable(health, frame));
+  draw();
+}
+
+void SurfaceCheck::close()
+{
+  checked_.reset();
+  panel_.show(CheckPanel::tr("Nothing is checked: Edit > Check surface does it"), {}, {});
+  draw();
+}
+
+void SurfaceCheck::setVisible(bool shown)
+{
+  isShown_ = shown;
+  draw();
+}
+
+std::vector<const Finding*> SurfaceCheck::marked() const
+{
+  std::vector<const Finding*> findings;
+  const std::vector<Finding> none;
+  const std::vector<Finding>& all = checked_ ? checked_->health.findings : none;
+  const std::optional<std::size_t> chosen = panel_.chosen();
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    const bool isMarked = chosen ? i == *chosen : disturbs(all[i].fault);
+    isMarked ? findings.push_back(&all[i]) : void();
+  }
+  return findings;
+}
+
+SurfacePoint SurfaceCheck::placeOf(const Finding& finding) const
+{
+  const Eigen::Vector3d place = frame_ * finding.place;
+  const ClosestPoint nearest =
+    findClosestPoint(*felt_, place, std::numeric_limits<double>::infinity());
+  return { place, surfacePoint(*felt_, nearest.triangle, nearest.point).normal };
+}
+
+std::optional<SurfacePoint> SurfaceCheck::place() const
+{
+  const std::vector<const Finding*> findings = marked();
+  return findings.empty() ? std::nullopt : std::optional(placeOf(*findings.front()));
+}
+
+double SurfaceCheck::diagonal() const
+{
+  return (checked_->health.high - checked_->health.low).norm();
+}
+
+void SurfaceCheck::draw()
+{
+  const std::vector<const Finding*> findings = marked();
+  const double lift = findings.empty() ? 0.0 : kLift * diagonal();
+  std::vector<Eigen::Vector3d> places;
+  for (const Finding* finding : findings)
+  {
+    const SurfacePoint place = placeOf(*finding);
+    places.push_back(place.position + lift * place.normal);
+  }
+  isShown_ && !findings.empty() ? marks_.show(cornersOf(findings, *checked_, frame_), places, lift)
+                                : marks_.show({}, {}, lift);
+  panel_.showLegend(findings.empty() ? QString()
+      : panel_.chosen()              ? QString::fromUtf8(nameOf(findings.front()->fault).data())
+                                     : CheckPanel::tr("all that disturbs a press"));
+  changed_();
+}
+
+} // namespace palp
