@@ -84,8 +84,7 @@ void Window::checkSurface()
 void Window::makeCheck()
 {
   auto* panel = new CheckPanel;
-  setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
-  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea); // whose panels want their height
   QDockWidget* dock = addDock(this, Qt::BottomDockWidgetArea, tr("Surface check"), panel);
   check_ = std::make_unique<SurfaceCheck>(*renderer_, *panel, [this] { isStale_ = true; });
   connect(dock, &QDockWidget::visibilityChanged, this,

@@ -9,14 +9,20 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QStyle>
 #include <QTableWidget>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace palp
 {
 namespace
 {
+
+constexpr int kColumns = 6;
+constexpr int kTexts = 4; // the first of those that have lines of text
 
 QLabel* makeText(const char* name)
 {
@@ -57,10 +63,14 @@ CheckPanel::CheckPanel(QWidget* parent)
   rows_->setAccessibleName(tr("Faults"));
   rows_->setToolTip(tr("The fault that is chosen is marked in the picture; its place is that of "
                        "the first one, of holes that of the widest"));
-  rows_->setColumnCount(6);
+  rows_->setColumnCount(kColumns);
   rows_->setHorizontalHeaderLabels({ tr("Fault"), tr("Count"), tr("Place [mm]"), tr("Around [mm]"),
     tr("On loading"), tr("In a press") });
-  rows_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  for (int column = 0; column < kTexts; ++column)
+  {
+    rows_->horizontalHeader()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+  }
+  rows_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   rows_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   rows_->horizontalHeader()->setHighlightSections(false);
   rows_->verticalHeader()->hide();
@@ -70,6 +80,7 @@ CheckPanel::CheckPanel(QWidget* parent)
   rows_->setTabKeyNavigation(false); // it leaves the table
   rows_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   rows_->installEventFilter(this);
+  rows_->viewport()->installEventFilter(this);
   auto* foot = new QHBoxLayout;
   foot->addWidget(legend_, 1);
   foot->addWidget(look_);
@@ -109,6 +120,7 @@ void CheckPanel::show(const QString& verdict, const QString& measures, const fig
       rows_->item(row, 0)->setIcon(style()->standardIcon(QStyle::SP_MessageBoxWarning));
     }
   }
+  fit();
   const bool hasFaults = rows_->rowCount() > 0;
   look_->setEnabled(hasFaults);
   all_->setEnabled(hasFaults);
@@ -130,9 +142,20 @@ std::optional<std::size_t> CheckPanel::chosen() const
   return rows.isEmpty() ? std::nullopt : std::optional<std::size_t>(rows.front().row());
 }
 
+// the texts have the room that is left, and lines
+void CheckPanel::fit()
+{
+  constexpr int kLeast = 140; // [pixels]
+  const int left = rows_->viewport()->width() - rows_->columnViewportPosition(kTexts) -
+    rows_->horizontalScrollBar()->value();
+  rows_->setColumnWidth(kTexts, std::max(kLeast, 2 * left / 5));
+  rows_->setColumnWidth(kTexts + 1, std::max(kLeast, left - rows_->columnWidth(kTexts)));
+}
+
 // the first arrow key chooses the first row, which the table would go on from
 bool CheckPanel::eventFilter(QObject* rows, QEvent* event)
 {
+  event->type() == QEvent::Resize ? fit() : void();
   const auto* key = event->type() == QEvent::KeyPress ? static_cast<QKeyEvent*>(event) : nullptr;
   const bool isFirst = key != nullptr && !chosen() && rows_->rowCount() > 0 &&
     (key->key() == Qt::Key_Down || key->key() == Qt::Key_Up);

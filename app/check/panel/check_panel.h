@@ -43,6 +43,8 @@ protected:
   bool eventFilter(QObject* rows, QEvent* event) override;
 
 private:
+  void fit();
+
   QLabel* verdict_;
   QLabel* measures_;
   QTableWidget* rows_;

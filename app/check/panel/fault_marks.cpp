@@ -1,7 +1,6 @@
 #include "app/check/panel/fault_marks.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <vtkCellArray.h>
 #include <vtkMapper.h>
 #include <vtkPoints.h>
@@ -15,14 +14,7 @@ namespace palp
 namespace
 {
 
-struct Style
-{
-  appearance::Color color;
-  float size;     // of a point [pixels]
-  double forward; // of a point, in units of the depth buffer
-};
-constexpr std::array<Style, 3> kStyles{ { { FaultMarks::kColor, 7.0F, -200.0 },
-  { appearance::kInk, 20.0F, -600.0 }, { FaultMarks::kColor, 14.0F, -700.0 } } };
+constexpr std::array kDots{ 7.0F, 16.0F }; // of each layer [pixels]
 
 void addPoint(const Eigen::Vector3d& place, vtkPoints& points, vtkCellArray& dots)
 {
@@ -52,20 +44,18 @@ void addTriangle(const FaultMarks::Corners& corners, double lift, vtkPoints& poi
 FaultMarks::FaultMarks(vtkRenderer& renderer)
   : renderer_(renderer)
 {
-  for (std::size_t i = 0; i < layers_.size(); ++i)
+  for (auto& [marks, actor] : layers_)
   {
-    auto& [marks, actor] = layers_.at(i);
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(marks);
     appearance::drawInFront(*mapper);
-    mapper->SetRelativeCoincidentTopologyPointOffsetParameter(kStyles.at(i).forward);
     actor->SetMapper(mapper);
     actor->PickableOff();
     actor->UseBoundsOff(); // the view is fitted to the body
     actor->VisibilityOff();
-    actor->GetProperty()->LightingOff(); // the color of the legend also in the shade
-    actor->GetProperty()->RenderPointsAsSpheresOn();
-    appearance::setColor(*actor->GetProperty(), kStyles.at(i).color);
+    actor->GetProperty()->LightingOff();             // the color of the legend also in the shade
+    actor->GetProperty()->RenderPointsAsSpheresOn(); // which stand out of the surface
+    appearance::setColor(*actor->GetProperty(), kColor);
     renderer.AddActor(actor);
   }
 }
@@ -84,17 +74,16 @@ void FaultMarks::show(
   {
     addPoint(place, *points[1], *dots[1]);
   }
-  const double scale = renderer_.GetRenderWindow()->GetDPI() / double{ appearance::kDpi };
+  layers_[0].marks->SetPolys(faces);
+  const double scale = renderer_.GetRenderWindow()->GetDPI() / appearance::kDpi;
   for (std::size_t i = 0; i < layers_.size(); ++i)
   {
     auto& [marks, actor] = layers_.at(i);
-    const std::size_t of = std::min<std::size_t>(i, 1);
-    marks->SetPoints(points.at(of));
-    marks->SetVerts(dots.at(of));
-    i == 0 ? marks->SetPolys(faces) : void();
+    marks->SetPoints(points.at(i));
+    marks->SetVerts(dots.at(i));
     marks->Modified();
-    actor->GetProperty()->SetPointSize(static_cast<float>(scale) * kStyles.at(i).size);
-    actor->SetVisibility(points.at(of)->GetNumberOfPoints() > 0);
+    actor->GetProperty()->SetPointSize(static_cast<float>(scale) * kDots.at(i));
+    actor->SetVisibility(points.at(i)->GetNumberOfPoints() > 0);
   }
 }
 

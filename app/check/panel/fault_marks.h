@@ -42,7 +42,7 @@ private:
     vtkNew<vtkActor> actor;
   };
   vtkRenderer& renderer_;
-  std::array<Layer, 3> layers_; // triangles with their dots; rims of places; places
+  std::array<Layer, 2> layers_; // triangles with their dots; places
 };
 
 } // namespace palp

@@ -4,9 +4,9 @@
 #include "app/check/checked_surface.h"
 #include "app/check/panel/check_panel.h"
 #include "haptics/files/input_text.h"
-#include "haptics/surface/closest_point.h"
 
-#include <limits>
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace palp
@@ -33,10 +33,10 @@ std::vector<FaultMarks::Corners> cornersOf(const std::vector<const Finding*>& fi
     for (std::size_t i = 0; i < finding->triangles.size(); i += step)
     {
       FaultMarks::Corners& of = corners.emplace_back();
-      const Triangle& triangle = checked.triangles[static_cast<std::size_t>(finding->triangles[i])];
+      const Triangle& triangle = checked.triangles[at(finding->triangles[i])];
       for (std::size_t k = 0; k < of.size(); ++k)
       {
-        of.at(k) = frame * checked.points[static_cast<std::size_t>(triangle.at(k))];
+        of.at(k) = frame * checked.points[at(triangle.at(k))];
       }
     }
   }
@@ -96,18 +96,30 @@ std::vector<const Finding*> SurfaceCheck::marked() const
   return findings;
 }
 
-SurfacePoint SurfaceCheck::placeOf(const Finding& finding) const
+// of all triangles near there, as that of the fault itself may face anywhere
+Eigen::Vector3d SurfaceCheck::outwardAt(const Eigen::Vector3d& place) const
 {
-  const Eigen::Vector3d place = frame_ * finding.place;
-  const ClosestPoint nearest =
-    findClosestPoint(*felt_, place, std::numeric_limits<double>::infinity());
-  return { place, surfacePoint(*felt_, nearest.triangle, nearest.point).normal };
+  const double reach = std::max(2.0 * felt_->edgeLength(), 0.01 * diagonal());
+  const auto points = felt_->points();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& [a, b, c] : felt_->triangles())
+  {
+    const auto [p, q, r] = std::array{ points[at(a)], points[at(b)], points[at(c)] };
+    const bool isNear = ((p + q + r) / 3.0 - place).squaredNorm() < reach * reach;
+    sum += isNear ? (q - p).cross(r - p).eval() : Eigen::Vector3d::Zero();
+  }
+  return sum.norm() > 0.0 ? sum.normalized().eval() : Eigen::Vector3d::UnitZ();
 }
 
 std::optional<SurfacePoint> SurfaceCheck::place() const
 {
   const std::vector<const Finding*> findings = marked();
-  return findings.empty() ? std::nullopt : std::optional(placeOf(*findings.front()));
+  if (findings.empty())
+  {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d place = frame_ * findings.front()->place;
+  return SurfacePoint{ place, outwardAt(place) };
 }
 
 double SurfaceCheck::diagonal() const
@@ -122,8 +134,7 @@ void SurfaceCheck::draw()
   std::vector<Eigen::Vector3d> places;
   for (const Finding* finding : findings)
   {
-    const SurfacePoint place = placeOf(*finding);
-    places.push_back(place.position + lift * place.normal);
+    places.emplace_back(frame_ * finding->place);
   }
   isShown_ && !findings.empty() ? marks_.show(cornersOf(findings, *checked_, frame_), places, lift)
                                 : marks_.show({}, {}, lift);

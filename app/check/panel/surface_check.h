@@ -54,7 +54,7 @@ public:
 private:
   void draw();
   [[nodiscard]] std::vector<const Finding*> marked() const;
-  [[nodiscard]] SurfacePoint placeOf(const Finding& finding) const;
+  [[nodiscard]] Eigen::Vector3d outwardAt(const Eigen::Vector3d& place) const;
 
   CheckPanel& panel_;
   std::function<void()> changed_;
