@@ -2,6 +2,7 @@
 
 #include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"
+#include "haptics/threads/followed_work.h"
 #include "pipeline/health/open_sides.h"
 #include "pipeline/health/slivers.h"
 #include "pipeline/model/coincident_points.h"
@@ -296,13 +297,16 @@ MeshHealth healthOf(std::span<const Eigen::Vector3d> points, std::span<const Tri
   Findings findings(health.findings);
   findLoosePoints(points, triangles, findings);
   const MergedMesh mesh = mergedMesh(points, triangles);
+  tellDone(0.3); // of the time, about; as below
   findThin(mesh, points, triangles, findings);
   const Subject subject = subjectOf(mesh);
   findTurned(subject, findings);
   findNonManifold(subject, findings, health.findings);
   findHoles(subject, findings, health.findings);
+  tellDone(0.6);
   findInside(subject, findings);
   findInner(subject, health.findings);
+  tellDone(0.9);
   health.pieces = measuredPieces(subject);
   for (const auto& [a, b] : subject.edges.all)
   {

@@ -66,6 +66,7 @@ struct MeshHealth
 ///
 /// @param points     finite [m]
 /// @param triangles  indices in range, at least one
+/// @throws Error     NoSolution: it is not wanted any longer, see checkWanted()
 [[nodiscard]] MeshHealth healthOf(
   std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles);
 

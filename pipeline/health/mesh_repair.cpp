@@ -2,6 +2,7 @@
 
 #include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"
+#include "haptics/threads/followed_work.h"
 #include "pipeline/health/fill_holes.h"
 #include "pipeline/health/inner_walls.h"
 #include "pipeline/health/slivers.h"
@@ -89,6 +90,7 @@ RepairedMesh repairedOnce(
   {
     merged = mergedMesh(merged.points, merged.triangles);
   }
+  checkWanted();
   dropHanging(merged);
   const std::size_t turned = turnOutward(merged);
   dropRepeated(merged, false); // before cuts, which it hides, and what is buried
@@ -103,6 +105,7 @@ RepairedMesh repairedOnce(
   result.cut = cut;
   result.turned = turned;
   result.seamsLeft = seams.left;
+  checkWanted();
   const Facing facing = facingOf(result);
   turnAlike(result, facing);
   dropInner(result, facing);

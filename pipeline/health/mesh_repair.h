@@ -40,6 +40,7 @@ struct RepairedMesh
 /// @param points       finite [m]
 /// @param triangles    indices in range
 /// @param largestHole  length around a hole that is closed [m]; 0: none
+/// @throws Error       NoSolution: it is not wanted any longer, see checkWanted()
 [[nodiscard]] RepairedMesh repairedMesh(
   std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double largestHole);
 
