@@ -145,7 +145,7 @@ std::optional<std::size_t> CheckPanel::chosen() const
 // the texts have the room that is left, and lines
 void CheckPanel::fit()
 {
-  constexpr int kLeast = 140; // [pixels]
+  constexpr int kLeast = 190; // [pixels]
   const int left = rows_->viewport()->width() - rows_->columnViewportPosition(kTexts) -
     rows_->horizontalScrollBar()->value();
   rows_->setColumnWidth(kTexts, std::max(kLeast, 2 * left / 5));
