@@ -143,9 +143,10 @@ figures::Table faultTable(const MeshHealth& health, const Eigen::Isometry3d& fra
   return table;
 }
 
-std::vector<std::string> measuresOf(const MeshHealth& health)
+std::vector<std::string> measuresOf(const MeshHealth& health, const std::filesystem::path& file)
 {
-  std::vector<std::string> lines{ sizeOf(health), piecesOf(health) };
+  std::vector<std::string> lines{ printable(file.filename().string()) + ": " + sizeOf(health),
+    piecesOf(health) };
   health.edgeLengths.empty() ? void() : lines.push_back(edgesOf(health.edgeLengths));
   return lines;
 }

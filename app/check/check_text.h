@@ -5,6 +5,7 @@
 #include "pipeline/health/mesh_repair.h"
 
 #include <Eigen/Geometry>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,9 @@ inline constexpr int kCheckDigits = 5;
   const MeshHealth& health, const Eigen::Isometry3d& frame = Eigen::Isometry3d::Identity());
 
 /// Lines on size, pieces and lengths of edges.
-[[nodiscard]] std::vector<std::string> measuresOf(const MeshHealth& health);
+/// @param file  of the surface, which the first begins with
+[[nodiscard]] std::vector<std::string> measuresOf(
+  const MeshHealth& health, const std::filesystem::path& file);
 
 /// What was done to a surface, and what could not be.
 [[nodiscard]] std::string doneIn(const RepairedMesh& repaired);

@@ -39,10 +39,10 @@ struct CheckOptions
 
 std::string reportOf(const MeshHealth& health, const std::filesystem::path& file)
 {
-  std::string report = "# " + printable(file.filename().string()) + ": ";
-  for (const std::string& line : measuresOf(health))
+  std::string report;
+  for (const std::string& line : measuresOf(health, file))
   {
-    report += (report.ends_with('\n') ? "# " : "") + line + '\n';
+    report += "# " + line + '\n';
   }
   return report + figures::csv(faultTable(health), kCheckDigits);
 }

@@ -142,7 +142,7 @@ void Window::repairSurface()
       }
       repaired->folder->publish();
       const QString name = QString::fromStdString(file.string());
-      message_->ask(tr("Written to %1: %2. %3")
+      message_->ask(tr("Written to %1: %2. Checked again: %3")
                       .arg(name, QString::fromStdString(doneIn(repaired->surface.mesh)),
                         QString::fromStdString(verdictOf(repaired->surface.health))),
         { { tr("Open it"), [this, name] { openFile(name, LengthUnit::Millimeter); } } });

@@ -3,7 +3,6 @@
 #include "app/check/check_text.h"
 #include "app/check/checked_surface.h"
 #include "app/check/panel/check_panel.h"
-#include "haptics/files/input_text.h"
 
 #include <algorithm>
 #include <array>
@@ -60,12 +59,13 @@ void SurfaceCheck::open(std::shared_ptr<const CheckedSurface> checked,
   felt_ = std::move(felt);
   frame_ = frame;
   const MeshHealth& health = checked_->health;
-  QString measures = QString::fromStdString(printable(checked_->file.filename().string())) + ": ";
-  for (const std::string& line : measuresOf(health))
+  QStringList measures;
+  for (const std::string& line : measuresOf(health, checked_->file))
   {
-    measures += (measures.endsWith(": ") ? "" : "\n") + QString::fromStdString(line);
+    measures << QString::fromStdString(line);
   }
-  panel_.show(QString::fromStdString(verdictOf(health)), measures, faultTable(health, frame));
+  panel_.show(
+    QString::fromStdString(verdictOf(health)), measures.join('\n'), faultTable(health, frame));
   draw();
 }
 
@@ -139,8 +139,8 @@ void SurfaceCheck::draw()
   isShown_ && !findings.empty() ? marks_.show(cornersOf(findings, *checked_, frame_), places, lift)
                                 : marks_.show({}, {}, lift);
   panel_.showLegend(findings.empty() ? QString()
-      : panel_.chosen()              ? QString::fromUtf8(nameOf(findings.front()->fault).data())
-                                     : CheckPanel::tr("all that disturbs a press"));
+      : panel_.chosen() ? QString::fromStdString(std::string(nameOf(findings.front()->fault)))
+                        : CheckPanel::tr("all that disturbs a press"));
   changed_();
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "app/check/panel/check_panel.h"
 #include "data/shapes.h"
 #include "haptics/files/csv_text.h"
 #include "tests/app/window/window_rig.h"

@@ -1,7 +1,6 @@
 #include "app/organs/organ_list.h"
 #include "tests/app/window/check_rig.h"
 
-#include <array>
 #include <gtest/gtest.h>
 #include <map>
 
@@ -101,6 +100,27 @@ TEST_F(Check, SaysThatThereIsNoFault)
   EXPECT_EQ(rows(), Rows{});
   EXPECT_TRUE(verdict().starts_with("No fault")) << verdict();
   EXPECT_EQ(marks(), 0);
+}
+
+// the bundled one is felt by fewer triangles than are shown
+TEST_F(Check, IsOfWhatIsFelt)
+{
+  check();
+  EXPECT_TRUE(measures().starts_with("liver_haptic.vtp: ")) << measures();
+  EXPECT_EQ(rows(), rowsOf(command(PALP_SHARE "/meshes/liver_haptic.vtp").out));
+}
+
+TEST_F(Check, IsOfOneFile)
+{
+  write(path("one.obj"), broken({}));
+  write(path("two.obj"), broken({}));
+  std::ofstream(path("both.json")) << R"({"palp_scene": 1, "meshes": [
+    {"file": "one.obj", "unit": "mm"},
+    {"file": "two.obj", "unit": "mm", "frame": {"origin": ["100mm", "0mm", "0mm"]}}]})";
+  ASSERT_TRUE(window_->openFiles({ QString::fromStdString(path("both.json").string()) }));
+  check();
+  EXPECT_EQ(dock(), nullptr);
+  EXPECT_TRUE(said().contains("is of several files")) << said().toStdString();
 }
 
 TEST_F(Check, SaysThatTheFileIsGoneOrAnother)
