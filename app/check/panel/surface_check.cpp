@@ -132,6 +132,7 @@ void SurfaceCheck::draw()
   const std::vector<const Finding*> findings = marked();
   const double lift = findings.empty() ? 0.0 : kLift * diagonal();
   std::vector<Eigen::Vector3d> places;
+  places.reserve(findings.size());
   for (const Finding* finding : findings)
   {
     places.emplace_back(frame_ * finding->place);
