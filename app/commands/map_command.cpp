@@ -217,8 +217,9 @@ void addMapCommand(CLI::App& app)
     ->required();
   addOverwrite(*command, options->overwrite);
   command->footer(
-    "Each place is pressed at rest, as palp run --at does at its deepest; the stiffness is "
-    "dF/ddepth\nthere. Where the tool does not get as deep, force and stiffness are empty.\n"
+    "Each place is pressed as by palp run --at at its deepest; the stiffness is dF/ddepth there. "
+    "Of\ntissue that relaxes both are those at once, before it does. Where the tool does not get "
+    "as deep, force and stiffness are empty.\n"
     "Examples:\n"
     "  palp map --out map                                  the bundled liver, 5 mm deep\n"
     "  palp map liver.stl --depth 3mm --spacing 5mm --tip sphere:6mm --law corrected --out map\n"

@@ -38,8 +38,9 @@ void writeHeader(std::ostream& out, const StiffnessMap& map, const SceneBody& bo
       << "# tissue: E " << shortest(units::toKilopascals(law.material().youngModulus))
       << " kPa, nu " << shortest(law.material().poissonRatio) << '\n'
       << "# law: " << describeLaw(law.settings()) << '\n'
-      << "# pressed at rest along the inward normal, " << units::inMillimeters(map.asked.depth)
-      << " deep, at places " << units::inMillimeters(map.asked.spacing)
+      << "# pressed along the inward normal, tissue that relaxes before it does, "
+      << units::inMillimeters(map.asked.depth) << " deep, at places "
+      << units::inMillimeters(map.asked.spacing)
       << " apart or more; force and stiffness are empty where the tool does not get as deep\n";
 }
 

@@ -116,6 +116,10 @@ DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
   form->setVerticalSpacing(2);
   device_->setObjectName("device");
   device_->addItems(devices);
+  for (QComboBox* list : { device_, second_ }) // of which the path of a file would widen the panel
+  {
+    list->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  }
   form->addRow(tr("Input device"), device_);
   addPlaces(*form);
 

@@ -167,6 +167,10 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
   orientation.setVisible(figure.hasAxes);
   ScaleBar bar(*renderer);
   bar.setVisible(figure.hasScaleBar);
+  if (const Contact& contact = moment.sample.contact; contact.touching())
+  {
+    bar.setPlace(contact.center);
+  }
   view.setVisible(figure.overlays);
   view.setColorBar(figure.hasColorBar);
   renderer->SetUseFXAA(samples == 0 && !figure.isRealistic);

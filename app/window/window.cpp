@@ -222,6 +222,7 @@ void Window::refresh()
     isStale_ = false;
     chartsAreStale_ = true; // the section
     other_.show(shown_, second);
+    shown_.contact.touching() ? scaleBar_.setPlace(shown_.contact.center) : void();
     still_ = 0;
     setSmooth(false);
     renderWindow_->Render();

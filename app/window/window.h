@@ -205,7 +205,7 @@ private:
   void checkSaved();
   bool mayDropPresses();
   void restorePresses();
-  void discardPresses(const QString& what);
+  void discardPresses();
   void sayListed(const QString& how, std::size_t presses);
   void renamePress(int id, const QString& name);
   void deletePresses(const std::vector<int>& ids);

@@ -71,12 +71,19 @@ void Window::offerPresses()
     const QString what = QString::fromStdString(counted(left, "press", "presses"));
     message_->ask(tr("Not exported yet: %1 of before").arg(what),
       { { tr("Restore"), [this] { restorePresses(); } },
-        { tr("Discard"), [this, what] { discardPresses(what); } } });
+        { tr("Discard"), [this] { discardPresses(); } } });
   }
 }
 
-void Window::discardPresses(const QString& what)
+void Window::discardPresses()
 {
+  const std::size_t left = autosave_->left().size();
+  if (left == 0)
+  {
+    message_->warn(tr("None is left to discard: another window has restored them"));
+    return;
+  }
+  const QString what = QString::fromStdString(counted(left, "press", "presses"));
   const auto discard = [this, what]
   {
     autosave_->discard();

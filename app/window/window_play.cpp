@@ -220,6 +220,7 @@ void Window::showPictured()
   {
     fittedTo_ = std::pair(0, 0);
   }
+  isOther ? scaleBar_.setPlace(std::nullopt) : void();
   prepareView(view_, around_, moment);
   validity_ = Validity(moment.law, { .stableStiffness = session_.stableStiffness() });
   charts_ && !review_ ? charts_->setLaw(moment.law) : void();

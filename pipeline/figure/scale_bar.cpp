@@ -57,6 +57,11 @@ void ScaleBar::setInk(const std::array<double, 3>& ink)
   text_->GetTextProperty()->SetColor(ink[0], ink[1], ink[2]);
 }
 
+void ScaleBar::setPlace(const std::optional<Eigen::Vector3d>& contact)
+{
+  contact_ = contact;
+}
+
 void ScaleBar::place(vtkRenderer& renderer, const PictureRoom& room)
 {
   constexpr double kInset = 16.0; // from the left side, at least
@@ -64,8 +69,11 @@ void ScaleBar::place(vtkRenderer& renderer, const PictureRoom& room)
   constexpr double kEnd = 5.0;
   const double scale = room.scale;
   vtkCamera& camera = *renderer.GetActiveCamera();
-  const double seen =
-    2.0 * camera.GetDistance() * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera.GetViewAngle()));
+  const Eigen::Vector3d eye(camera.GetPosition());
+  const double ahead =
+    contact_ ? Eigen::Vector3d(camera.GetDirectionOfProjection()).dot(*contact_ - eye) : 0.0;
+  const double seen = 2.0 * (ahead > 0.0 ? ahead : camera.GetDistance()) *
+    std::tan(0.5 * vtkMath::RadiansFromDegrees(camera.GetViewAngle()));
   const double pixel = seen / room.height; // [m]
   const double right = room.width - kRight * scale;
   const double most = std::clamp(right - kInset * scale, 1.0, kLongest * scale);

@@ -63,6 +63,19 @@ TEST_F(RestoredPresses, AreOfferedAgainWhereDiscardIsUndone)
   EXPECT_EQ(presses.back().summary.force, force);
 }
 
+TEST_F(RestoredPresses, AreNotSaidToBeDiscardedWhereAnotherWindowHasThem)
+{
+  Autosave other(now_->folder().parent_path());
+  ASSERT_EQ(other.left().size(), 1U);
+  ASSERT_GT(other.adopt(other.left().front()), 0);
+  answer("Discard");
+  EXPECT_TRUE(said().startsWith("None is left to discard")) << said().toStdString();
+  canvas_->setFocus();
+  QTest::keyClick(canvas_, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(said().startsWith("None is left to discard")) << said().toStdString();
+  EXPECT_TRUE(other.has(1));
+}
+
 // nobody wants a press twice without a word
 TEST_F(RestoredPresses, AreNotLoadedTwiceUnasked)
 {

@@ -113,17 +113,21 @@ TEST_F(Annotations, NameOnlyAxesWhereNobodyKnowsThePatient)
   EXPECT_FALSE(placeOf("x"));
 }
 
+// or as far away as the contact, here off the middle of the picture
 TEST_F(Annotations, BarIsAsLongAsItSaysWhereTheEyeLooks)
 {
   ScaleBar bar(*renderer_);
   bar.setVisible(true);
-  for (const double distance : { 0.1, 0.5, 2.0 })
+  for (const auto& [distance, nearer] :
+    { std::pair(0.1, 0.0), { 0.5, 0.0 }, { 2.0, 0.0 }, { 0.5, 0.25 }, { 0.5, -0.2 } })
   {
     lookFrom({ 0.0, -distance, 0.0 }, { 0.0, 0.0, 1.0 });
+    bar.setPlace(
+      nearer == 0.0 ? std::nullopt : std::optional(Eigen::Vector3d(0.03, -nearer, 0.01)));
     const auto image = test::imageOf(*window_);
     const auto pixelOf = [&](double x)
     {
-      renderer_->SetWorldPoint(x, 0.0, 0.0, 1.0);
+      renderer_->SetWorldPoint(x, -nearer, 0.0, 1.0);
       renderer_->WorldToDisplay();
       return renderer_->GetDisplayPoint()[0];
     };
