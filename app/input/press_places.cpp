@@ -9,16 +9,32 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <regex>
 
 namespace palp
 {
 
 using namespace units::literals;
 
+namespace
+{
+
+// as parseNumbers reads it: also what is pasted from a table, or has the minus sign of print
+std::string withCommas(const std::string& text)
+{
+  static const std::regex minus("\u2212");
+  static const std::regex blanks("[ \t]+");
+  const std::string plain = std::regex_replace(std::string(trimmed(text)), minus, "-");
+  return plain.find(',') == plain.npos ? std::regex_replace(plain, blanks, ",") : plain;
+}
+
+} // namespace
+
 PressPlace parsePlace(const std::string& text, const std::string& what)
 {
   const bool isWord = text.find_first_of("0123456789") == text.npos; // no number to ask for
-  const std::vector<double> numbers = isWord ? std::vector<double>() : parseNumbers(text, what);
+  const std::vector<double> numbers =
+    isWord ? std::vector<double>() : parseNumbers(withCommas(text), what);
   if (numbers.size() != 3)
   {
     throw Error(ErrorCode::BadValue,

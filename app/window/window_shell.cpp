@@ -109,10 +109,15 @@ void Window::greet()
   {
     say(tr("Drag down on the liver to press it; H shows all keys and what the mouse does"));
   }
+  constexpr std::string_view kWarning = "warning: ";
+  QStringList warnings;
   for (const std::string& note : session_.body().notes)
   {
-    note.starts_with("warning: ") ? message_->warn(QString::fromStdString(note)) : void();
+    note.starts_with(kWarning)
+      ? void(warnings << QString::fromStdString(note.substr(kWarning.size())))
+      : void();
   }
+  warnings.empty() ? void() : message_->warn(warnings.join("; "));
 }
 
 void Window::makeHelpMenu()

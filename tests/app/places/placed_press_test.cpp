@@ -172,5 +172,20 @@ TEST(PlacedPress, RefusesInOneSentence)
   EXPECT_NE(past.find("does not meet the surface"), std::string::npos) << past;
 }
 
+TEST(PressPlaceText, IsReadHoweverItsNumbersAreApart)
+{
+  const Eigen::Vector3d place(-0.05, -0.02, 0.0605);
+  for (const char* text : { "-50,-20,60.5", " -50, -20, 60.5 ", "-50 -20 60.5", "-50\t-20\t60.5",
+         "  -50   -20 \t 60.5  ", "\u221250, \u221220, 60.5", "\u221250 -20 60.5" })
+  {
+    EXPECT_LT((parsePlace(text).position - place).norm(), 1e-12) << text;
+  }
+  for (const char* text :
+    { "-50 -20", "-50 -20 60 5", "-50,-20 60", "-50 -20 6o", "", "- 50 -20 60" })
+  {
+    EXPECT_THROW((void)parsePlace(text), Error) << text;
+  }
+}
+
 } // namespace
 } // namespace palp

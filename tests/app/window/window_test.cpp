@@ -158,7 +158,7 @@ TEST_F(WindowTest, AsksForTheLevelOfAnImage)
   EXPECT_TRUE(reasons[0].contains("level")) << reasons[0].toStdString();
   EXPECT_TRUE(reasons[1].contains("comma")) << reasons[1].toStdString();
   EXPECT_TRUE(reasons[2].contains("7")) << reasons[2].toStdString();
-  EXPECT_TRUE(reasons[3].contains("both are given")) << reasons[3].toStdString();
+  EXPECT_TRUE(reasons[3].contains("more than one is given")) << reasons[3].toStdString();
   EXPECT_EQ(session_->body().name, "mask.mha");
   press(60);
   release();
