@@ -53,7 +53,12 @@ std::size_t setTicks(vtkAxis& axis, double apart)
   std::size_t longest = 0;
   for (double i = std::ceil(first / step - kRounding); i * step <= last + kRounding * step; ++i)
   {
-    const std::string label = palp::readingText(i * step, step);
+    std::string label = palp::readingText(i * step, step);
+    if (label.find('.') != label.npos)
+    {
+      label.erase(label.find_last_not_of('0') + 1); // 0.5, 1, 1.5
+      label.erase(label.find_last_not_of('.') + 1);
+    }
     positions->InsertNextValue(i * step);
     labels->InsertNextValue(label);
     longest = std::max(longest, label.size());
@@ -167,16 +172,17 @@ void vtkPalpChart::SpaceTicks()
 {
   for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
   {
-    constexpr double kLine = 20.0;  // [pixels] that a number takes where letters are as on a screen
-    constexpr double kLetter = 8.0; // and one of its letters
+    // [pixels] as the toolkit's own, where letters are as on a screen
+    const double least = side == vtkAxis::LEFT ? 30.0 : 45.0;
+    const double letter = side == vtkAxis::LEFT ? 0.0 : 8.0; // of a number
     vtkAxis& axis = *this->GetAxis(side);
     std::size_t letters = 0;
     std::size_t longest = 5; // about
     while (longest > letters && !axis.GetLogScaleActive())
     {
       letters = longest;
-      longest = setTicks(axis,
-        this->Scale * (side == vtkAxis::LEFT ? kLine : kLetter * static_cast<double>(letters)));
+      longest =
+        setTicks(axis, this->Scale * std::max(least, letter * static_cast<double>(letters)));
     }
   }
 }
