@@ -5,7 +5,6 @@
 #include "app/check/panel/check_panel.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace palp
@@ -19,7 +18,7 @@ constexpr double kLift = 0.003; // of the body's diagonal, as it may be shown co
 std::vector<FaultMarks::Corners> cornersOf(const std::vector<const Finding*>& findings,
   const CheckedSurface& checked, const Eigen::Isometry3d& frame)
 {
-  constexpr std::size_t kMost = 50000;
+  constexpr std::size_t kMost = 20'000;
   std::size_t count = 0;
   for (const Finding* finding : findings)
   {
@@ -100,14 +99,14 @@ std::vector<const Finding*> SurfaceCheck::marked() const
 Eigen::Vector3d SurfaceCheck::outwardAt(const Eigen::Vector3d& place) const
 {
   const double reach = std::max(2.0 * felt_->edgeLength(), 0.01 * diagonal());
-  const auto points = felt_->points();
+  const BoxTree& tree = felt_->tree();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& [a, b, c] : felt_->triangles())
-  {
-    const auto [p, q, r] = std::array{ points[at(a)], points[at(b)], points[at(c)] };
-    const bool isNear = ((p + q + r) / 3.0 - place).squaredNorm() < reach * reach;
-    sum += isNear ? (q - p).cross(r - p).eval() : Eigen::Vector3d::Zero();
-  }
+  tree.search([&](const BoxTree::Node& box) { return squaredDistance(box, place) < reach * reach; },
+    [&](int facet)
+    {
+      const auto& [p, q, r] = tree.facets()[at(facet)].corners;
+      sum += (q - p).cross(r - p);
+    });
   return sum.norm() > 0.0 ? sum.normalized().eval() : Eigen::Vector3d::UnitZ();
 }
 
