@@ -51,7 +51,8 @@ std::size_t setTicks(vtkAxis& axis, double apart)
   vtkNew<vtkDoubleArray> positions;
   vtkNew<vtkStringArray> labels;
   std::size_t longest = 0;
-  for (double i = std::ceil(first / step - kRounding); i * step <= last + kRounding * step; ++i)
+  for (double i = std::ceil(first / step - kRounding) + 0.0; // which is no -0
+       i * step <= last + kRounding * step; ++i)
   {
     std::string label = palp::readingText(i * step, step);
     if (label.find('.') != label.npos)

@@ -130,6 +130,7 @@ TEST(ChartSheet, NumbersOfAnAxisStandApartAtAnySize)
         for (vtkIdType i = 0; i < labels.GetNumberOfValues(); ++i)
         {
           longest = std::max(longest, labels.GetValue(i).size());
+          EXPECT_NE(labels.GetValue(i), "-0");
           EXPECT_NEAR(std::stod(labels.GetValue(i)), ticks.GetValue(i), 1e-3 * range);
         }
         const double needed = side == vtkAxis::LEFT ? 1.2 : 0.6 * static_cast<double>(longest);
