@@ -4,7 +4,9 @@
 
 #include <QAction>
 #include <QComboBox>
+#include <QDockWidget>
 #include <QElapsedTimer>
+#include <QPushButton>
 
 #include <cstdio>
 #include <fstream>
@@ -174,6 +176,31 @@ TEST_F(Waits, Opening)
       printWait("its first pictures", [] { QTest::qWait(5'000); });
     }
   }
+}
+
+TEST_F(Waits, Checking)
+{
+  body.empty() ? void() : void(window_->openFile(QString::fromStdString(body.string())));
+  QTest::qWait(3'000);
+  const auto trigger = [this](const char* action)
+  { window_->findChild<QAction*>(action)->trigger(); };
+  for (const char* what : { "check", "check again" })
+  {
+    printWait(what, [&] { trigger("checkAction"); });
+    printWait("its first pictures", [] { QTest::qWait(2'000); });
+  }
+  for (auto* button : window_->findChildren<QPushButton*>())
+  {
+    button->text().remove('&') == "Look at" ? printWait("look at", [&] { button->click(); })
+                                            : void();
+  }
+  auto* dock = window_->findChild<QDockWidget*>("Surface check");
+  printWait("closed",
+    [&]
+    {
+      dock->close();
+      QTest::qWait(500);
+    });
 }
 
 } // namespace
