@@ -60,13 +60,16 @@ LevelLines levelLines(
   {
     std::array<int, 2> ends{};
     int crossed = 0;
+    // all lines run the same way round what is above: where two ends, or two beginnings, met, the
+    // rules by which lines become pixels would leave a gap
     for (std::size_t i = 0; i < corners.size(); ++i)
     {
       const int a = corners[i];
       const int b = corners[(i + 1) % corners.size()];
       if (isAbove(a) != isAbove(b))
       {
-        ends[static_cast<std::size_t>(crossed++)] = isAbove(a) ? pointOn(b, a) : pointOn(a, b);
+        ends[isAbove(a) ? 0 : 1] = isAbove(a) ? pointOn(b, a) : pointOn(a, b);
+        ++crossed;
       }
     }
     crossed == 2 ? made.lines.push_back(ends) : void();

@@ -62,11 +62,13 @@ TEST(LevelLines, OfADistanceAreACircleInOnePiece)
   addLevelLines(*surface, plane.triangles, "distance", "place", kRadius, *lines);
   vtkDataArray& between = *lines->GetPointData()->GetArray("place");
   std::vector<int> ends(static_cast<std::size_t>(lines->GetNumberOfPoints()));
+  std::vector<int> begins(ends.size());
   double length = 0.0;
   for (vtkIdType i = 0; i < lines->GetNumberOfLines(); ++i)
   {
     vtkNew<vtkIdList> two;
     lines->GetCellPoints(i, two);
+    ++begins[static_cast<std::size_t>(two->GetId(0))];
     const Eigen::Vector3d a(lines->GetPoint(two->GetId(0)));
     const Eigen::Vector3d b(lines->GetPoint(two->GetId(1)));
     length += (a - b).norm();
@@ -78,6 +80,7 @@ TEST(LevelLines, OfADistanceAreACircleInOnePiece)
     const Eigen::Vector3d at(lines->GetPoint(i));
     EXPECT_NEAR(at.norm(), kRadius, 2.0 / 8.0 / kRadius + 1e-6); // h^2 / 8 R, of a diagonal
     EXPECT_EQ(ends[static_cast<std::size_t>(i)], 2) << "a loose end";
+    EXPECT_EQ(begins[static_cast<std::size_t>(i)], 1) << "all run the same way round";
     EXPECT_NEAR((at - Eigen::Vector3d(between.GetTuple3(i))).norm(), 0.0, 1e-6);
   }
   EXPECT_NEAR(length, 2.0 * std::numbers::pi * kRadius, 0.01 * kRadius);
