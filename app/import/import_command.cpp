@@ -148,7 +148,8 @@ void tellTissues(const std::vector<ImportedOrgan>& organs)
 FileOrgans found(const ImportOptions& options)
 {
   const ProgressLine progress("reading " + printable(options.image.filename().string()));
-  FileOrgans organs = readFileOrgans(options.image, options.part, options.out.empty());
+  FileOrgans organs = options.out.empty() ? readFileOrgans(options.image, options.part, true)
+                                          : readFileOrgansAt(options.image, options.part, {});
   for (const std::string& note : organs.notes)
   {
     tell(note);
@@ -180,7 +181,10 @@ void colorAs(std::vector<FileOrgan>& organs, const std::filesystem::path& names)
 
 ImportSource sourceOf(const ImportOptions& options, const FileOrgans& organs, LengthUnit unit)
 {
-  ImportSource source{ .image = describeFile(options.image), .names = options.names.filename() };
+  ImportSource source{ .file = options.image,
+    .stamps = {},
+    .image = describeFile(options.image),
+    .names = options.names.filename() };
   source.image.unit = unitName(unit);
   source.image.space = organs.space;
   source.image.part = options.part;
@@ -201,17 +205,19 @@ void runImport(const ImportOptions& options)
   Outputs outputs;
   OutputFolder& output = outputs.open(
     options.out, importFiles(options.out), options.overwrite, filesBehind(options.image));
+  const FileStamps stamps = stampsOf(options.image);
   FileOrgans all = found(options);
   std::vector<std::string> warnings;
   colorAs(all.organs, options.names);
   const LengthUnit unit = unitOf(all, options.unit, options.image, warnings);
-  const ImportSource source = sourceOf(options, all, unit);
+  ImportSource source = sourceOf(options, all, unit);
+  source.stamps = stamps;
   std::vector<std::string> files;
   nameFiles(all.organs, files, std::filesystem::canonical(options.image).stem().stem().string());
   ProgressLine progress("organs");
   progress(0, files.size());
-  const std::vector<ImportedOrgan> organs = importedOrgans(std::move(all), files, options.image,
-    unit, output.stage(), [&](std::size_t done) { progress(done, files.size()); });
+  const std::vector<ImportedOrgan> organs = importedOrgans(std::move(all), files, source, unit,
+    output.stage(), [&](std::size_t done) { progress(done, files.size()); });
   for (const ImportedOrgan& organ : organs)
   {
     for (const std::string& warning : organ.warnings)

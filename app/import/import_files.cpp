@@ -10,7 +10,9 @@
 #include <atomic>
 #include <fstream>
 #include <future>
+#include <memory>
 #include <numeric>
+#include <semaphore>
 #include <thread>
 #include <vtkPolyData.h>
 
@@ -91,6 +93,45 @@ void writeOrgan(const std::filesystem::path& folder, ImportedOrgan& organ, const
   }
 }
 
+// Places of organs that one process reads, a few for each processor, as each reads the image anew.
+// The largest first: at the end it would keep one processor busy and the others waiting.
+std::vector<std::vector<std::size_t>> sharesOf(
+  const std::vector<FileOrgan>& organs, std::size_t processors)
+{
+  constexpr std::size_t kOnEach = 4;
+  std::vector<std::size_t> order(organs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return organs[i].voxels; });
+  std::vector<std::vector<std::size_t>> shares(std::min(organs.size(), kOnEach * processors));
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    shares[i % shares.size()].push_back(order[i]);
+  }
+  return shares;
+}
+
+// of those of a share that have none yet; they keep what they are called
+void readSurfaces(std::vector<FileOrgan>& organs, const std::vector<std::size_t>& share,
+  const ImportSource& source, std::counting_semaphore<>& readers)
+{
+  if (!organs[share.front()].surface.points.empty())
+  {
+    return; // it was the only one
+  }
+  readers.acquire();
+  const auto leave = [&readers](void*) { readers.release(); };
+  const std::unique_ptr<void, decltype(leave)> turn(&readers, leave);
+  FileOrgans read = readFileOrgansAt(source.file, source.image.part, share);
+  checkUnchanged(source.file, source.stamps);
+  for (const std::size_t i : share)
+  {
+    FileOrgan& organ = read.organs.at(i);
+    organ.name = std::move(organs[i].name);
+    organ.color = std::move(organs[i].color);
+    organs[i] = std::move(organ);
+  }
+}
+
 } // namespace
 
 std::vector<std::string> importFiles(const std::filesystem::path& folder)
@@ -116,31 +157,30 @@ std::vector<std::string> importFiles(const std::filesystem::path& folder)
 }
 
 std::vector<ImportedOrgan> importedOrgans(FileOrgans all, const std::vector<std::string>& files,
-  const std::filesystem::path& image, LengthUnit unit, const std::filesystem::path& folder,
+  const ImportSource& source, LengthUnit unit, const std::filesystem::path& folder,
   const std::function<void(std::size_t)>& tell)
 {
-  std::vector<FileOrgan>& organs = all.organs;
-  std::vector<std::size_t> order(organs.size());
-  std::iota(order.begin(), order.end(), 0);
-  // the largest first: at the end it would keep one processor busy and the others waiting
-  std::ranges::stable_sort(
-    order, std::greater(), [&](std::size_t i) { return organs[i].from.size(); });
-  std::vector<ImportedOrgan> made(organs.size());
+  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+  const std::vector<std::vector<std::size_t>> shares = sharesOf(all.organs, processors);
+  std::vector<ImportedOrgan> made(all.organs.size());
+  std::counting_semaphore<> readers(2); // each holds the whole image
   std::atomic<std::size_t> begun{ 0 };
   std::atomic<std::size_t> done{ 0 };
   const auto work = [&]
   {
-    for (std::size_t next = begun++; next < order.size(); next = begun++)
+    for (std::size_t next = begun++; next < shares.size(); next = begun++)
     {
-      const std::size_t i = order[next];
-      made[i] = importedOrgan(std::move(organs[i]), image, unit);
-      made[i].file = files[i];
-      writeOrgan(folder, made[i], all.space);
-      tell(++done);
+      readSurfaces(all.organs, shares[next], source, readers);
+      for (const std::size_t i : shares[next])
+      {
+        made[i] = importedOrgan(std::move(all.organs[i]), source.file, unit);
+        made[i].file = files[i];
+        writeOrgan(folder, made[i], all.space);
+        tell(++done);
+      }
     }
   };
-  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<std::future<void>> workers(std::min(processors, organs.size()));
+  std::vector<std::future<void>> workers(std::min(processors, shares.size()));
   std::ranges::generate(workers, [&] { return std::async(std::launch::async, work); });
   for (std::future<void>& worker : workers)
   {
@@ -150,7 +190,7 @@ std::vector<ImportedOrgan> importedOrgans(FileOrgans all, const std::vector<std:
     }
     catch (...)
     {
-      begun = order.size(); // what the others would make of the rest is of no use
+      begun = shares.size(); // what the others would make of the rest is of no use
       throw;
     }
   }

@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/surface/area_and_volume.h"
+#include "haptics/surface/closest_point.h"
 #include "haptics/surface/crossing.h"
 #include "haptics/surface/decimation/decimate.h"
 #include "haptics/units.h"
@@ -50,6 +51,21 @@ Boundary boundaryOf(const FileOrgan& organ, double length)
   return boundary;
 }
 
+// by some of the points that it shall be near, for where it is not that shows at most of them
+bool seemsNear(std::span<const Eigen::Vector3d> points, const TriangleMesh& mesh, double most)
+{
+  constexpr std::size_t kOneOf = 16;
+  const BoxTree tree(mesh.points, mesh.triangles);
+  for (std::size_t i = 0; i < points.size(); i += kOneOf)
+  {
+    if (distanceTo(tree, points[i], 2.0 * most) > most)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 // Of as few points as stay within what the voxels tell. Where not even half of them do, that is
 // known at once, and not after all that are coarser.
 std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
@@ -64,10 +80,16 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   {
     return std::nullopt; // it is felt as it is
   }
-  const std::vector<TriangleMesh> finer = decimatedTo(counts, points, triangles, 0.5 * voxel);
+  const double most = std::max(voxel, shownApart);
+  std::vector<TriangleMesh> finer;
+  decimateTo(counts, points, triangles, 0.5 * voxel,
+    [&](TriangleMesh felt)
+    {
+      finer.push_back(std::move(felt));
+      return finer.size() > 1 || seemsNear(boundary.points, finer.front(), most);
+    });
   const auto nearEnough = [&](const TriangleMesh& felt)
   {
-    const double most = std::max(voxel, shownApart);
     const Deviation apart = deviation(
       felt.points, BoxTree(felt.points, felt.triangles), boundary.points, boundary.tree, most);
     return apart.largest <= most ? std::optional(levelOf(felt.points, felt.triangles, apart))
@@ -190,17 +212,12 @@ LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked, const std::filesys
   {
     return *asked;
   }
-  Eigen::Array3d low = Eigen::Array3d::Constant(HUGE_VAL);
-  Eigen::Array3d high = -low;
+  Eigen::AlignedBox3d box;
   for (const FileOrgan& organ : organs.organs)
   {
-    for (const Eigen::Vector3d& point : organ.surface.points)
-    {
-      low = low.min(point.array());
-      high = high.max(point.array());
-    }
+    box.extend(organ.box);
   }
-  const double size = (high - low).maxCoeff();
+  const double size = box.sizes().maxCoeff();
   if (const UnitChoice unit = unitNamed(organs.unit))
   {
     constexpr double kMost = 3.0; // [m] of a patient

@@ -1,4 +1,4 @@
-// palp-read FILE [joined|organs|list|values] [KEY=VALUE...]: reads a surface, the bodies in an
+// palp-read FILE [joined|organs|some|list|values] [KEY=VALUE...]: reads a surface, the bodies in an
 // image, their list or values for the program that started it. DICOM it leaves to a sibling.
 #include "haptics/files/input_text.h"
 #include "haptics/files/prefix.h"

@@ -60,13 +60,21 @@ void readForAnother(int argc, char** argv, const DicomReaders& dicom)
   const std::filesystem::path file = argc > 1 ? argv[1] : "";
   const std::string_view mode = argc > 2 ? argv[2] : "";
   ImagePart part;
+  OrgansAsked asked{ .isList = mode == "list" };
+  mode == "some" ? void(asked.places.emplace()) : void();
   std::string array;
   for (int i = 2; i < argc; ++i)
   {
     const std::string_view word = argv[i];
     const std::size_t equals = std::min(word.find('='), word.size() - 1);
-    take(part, word.substr(0, equals), word.substr(equals + 1));
-    array = word.substr(0, equals) == "array" ? word.substr(equals + 1) : array;
+    const std::string_view key = word.substr(0, equals);
+    const std::string_view value = word.substr(equals + 1);
+    take(part, key, value);
+    array = key == "array" ? value : array;
+    if (key == "place" && asked.places)
+    {
+      asked.places->push_back(std::strtoull(value.data(), nullptr, 10));
+    }
   }
   answer(
     [&]
@@ -75,9 +83,9 @@ void readForAnother(int argc, char** argv, const DicomReaders& dicom)
       {
         return pack(readValues(file, array, dicom));
       }
-      if (mode == "organs" || mode == "list")
+      if (mode == "organs" || mode == "list" || mode == "some")
       {
-        return pack(readOrgans(file, part, mode == "list", dicom));
+        return pack(readOrgans(file, part, asked, dicom));
       }
       FileSurface surface = readFile(file, part, dicom);
       return pack(mode == "joined" ? withJoinedCorners(std::move(surface)) : surface);

@@ -304,8 +304,8 @@ FileValues readValues(
     });
 }
 
-FileOrgans readOrgans(
-  const std::filesystem::path& file, const ImagePart& part, bool isList, const DicomReaders& dicom)
+FileOrgans readOrgans(const std::filesystem::path& file, const ImagePart& part,
+  const OrgansAsked& asked, const DicomReaders& dicom)
 {
   const Format& format = checkedFormat(file, part);
   if (format.read)
@@ -315,7 +315,7 @@ FileOrgans readOrgans(
   return withoutVtkErrors(file, format,
     [&]
     {
-      FileOrgans all = imageOrgans(imageOf(file, format, part, dicom), part, isList, file.string());
+      FileOrgans all = imageOrgans(imageOf(file, format, part, dicom), part, asked, file.string());
       for (const FileOrgan& organ : all.organs)
       {
         checkPoints(file, organ.surface.points);

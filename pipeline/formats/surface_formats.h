@@ -34,7 +34,7 @@ struct DicomReaders
 /// The bodies in an image, by imageOrgans.
 /// @throws Error  BadFile: a surface, no image; else as readFile
 [[nodiscard]] FileOrgans readOrgans(const std::filesystem::path& file, const ImagePart& part,
-  bool isList, const DicomReaders& dicom = {});
+  const OrgansAsked& asked, const DicomReaders& dicom = {});
 
 /// The values of an image, or of an array of a surface.
 /// @param array   its name; empty: the file is an image

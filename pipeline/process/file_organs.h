@@ -2,7 +2,10 @@
 
 #include "pipeline/process/file_surface.h"
 
+#include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace palp
 {
@@ -19,6 +22,14 @@ struct FileOrgan
   FileSurface surface;      ///< empty where only a list is asked for
   std::vector<Eigen::Vector3d> from; ///< of its points, where each was before it was smoothed
   double voxel = 0.0;                ///< longest side of one [unit]
+  Eigen::AlignedBox3d box{};         ///< about its surface, or its voxels where there is none
+};
+
+/// Which of the bodies in an image get a surface; the others are only listed.
+struct OrgansAsked
+{
+  bool isList = false; ///< none, and those are listed as well that are too small for one
+  std::optional<std::vector<std::size_t>> places{}; ///< these of the list; nothing: all
 };
 
 /// What an image holds.

@@ -23,7 +23,7 @@ template <typename Value>
   {
     return false;
   }
-  std::memcpy(&value, bytes.data(), sizeof value);
+  std::memcpy(static_cast<void*>(&value), bytes.data(), sizeof value);
   bytes.remove_prefix(sizeof value);
   return true;
 }

@@ -192,6 +192,14 @@ std::vector<std::string> commandOf(
       ": damaged or cut off: the reader crashed or exceeded its limits; export or copy it again");
 }
 
+FileOrgans organsIn(const std::filesystem::path& file, const std::vector<std::string>& command)
+{
+  const auto answer = answerOf(command);
+  auto organs = answer ? unpackOrgans(*answer) : std::nullopt;
+  organs ? void() : refuseCrash(file);
+  return *std::move(organs);
+}
+
 FileSurface surfaceIn(const std::filesystem::path& file, const std::vector<std::string>& command)
 {
   const auto answer = answerOf(command);
@@ -209,10 +217,18 @@ FileSurface readFileSurface(const std::filesystem::path& file, const ImagePart& 
 
 FileOrgans readFileOrgans(const std::filesystem::path& file, const ImagePart& part, bool isList)
 {
-  const auto answer = answerOf(commandOf(file, part, isList ? "list" : "organs"));
-  auto organs = answer ? unpackOrgans(*answer) : std::nullopt;
-  organs ? void() : refuseCrash(file);
-  return *std::move(organs);
+  return organsIn(file, commandOf(file, part, isList ? "list" : "organs"));
+}
+
+FileOrgans readFileOrgansAt(
+  const std::filesystem::path& file, const ImagePart& part, std::span<const std::size_t> places)
+{
+  std::vector<std::string> command = commandOf(file, part, "some");
+  for (const std::size_t place : places)
+  {
+    command.push_back("place=" + std::to_string(place));
+  }
+  return organsIn(file, command);
 }
 
 LoadedSurface readSurface(const std::filesystem::path& file, UnitChoice unit, const ImagePart& part)

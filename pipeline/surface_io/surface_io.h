@@ -54,6 +54,11 @@ struct LoadedSurface
 [[nodiscard]] FileOrgans readFileOrgans(
   const std::filesystem::path& file, const ImagePart& part, bool isList);
 
+/// The same list, of which only some get their surfaces, so that several processes can read.
+/// @param places  of these; none: what is one body alone gets its surface
+[[nodiscard]] FileOrgans readFileOrgansAt(
+  const std::filesystem::path& file, const ImagePart& part, std::span<const std::size_t> places);
+
 /// What readSurface makes of what a file holds.
 /// @param file    its name, for messages
 /// @throws Error  BadMesh, BadValue: as readSurface

@@ -298,24 +298,32 @@ TriangleMesh whatIsLeft(const HalfEdges& mesh)
 TriangleMesh decimated(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
   std::size_t count, double error)
 {
-  return std::move(decimatedTo({ &count, 1 }, points, triangles, error).front());
+  TriangleMesh result;
+  decimateTo({ &count, 1 }, points, triangles, error,
+    [&](TriangleMesh mesh)
+    {
+      result = std::move(mesh);
+      return true;
+    });
+  return result;
 }
 
-std::vector<TriangleMesh> decimatedTo(std::span<const std::size_t> counts,
-  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double error)
+void decimateTo(std::span<const std::size_t> counts, std::span<const Eigen::Vector3d> points,
+  std::span<const Triangle> triangles, double error, const std::function<bool(TriangleMesh)>& take)
 {
   HalfEdges mesh = halfEdgesOf(points, triangles);
   mesh.request_vertex_status();
   mesh.request_edge_status();
   mesh.request_face_status();
   Decimation decimation(mesh, error);
-  std::vector<TriangleMesh> levels;
   for (const std::size_t count : counts)
   {
     decimation.downTo(count);
-    levels.push_back(whatIsLeft(mesh));
+    if (!take(whatIsLeft(mesh)))
+    {
+      return;
+    }
   }
-  return levels;
 }
 
 } // namespace palp

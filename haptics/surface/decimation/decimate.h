@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -40,8 +41,8 @@ struct TriangleMesh
 /// The same at several numbers of points, for the time of the fewest.
 ///
 /// @param counts  each at most the one before it
-/// @return        a mesh for each, as decimated() makes it
-[[nodiscard]] std::vector<TriangleMesh> decimatedTo(std::span<const std::size_t> counts,
-  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double error);
+/// @param take    gets a mesh for each, as decimated() makes it; false: the rest is not wanted
+void decimateTo(std::span<const std::size_t> counts, std::span<const Eigen::Vector3d> points,
+  std::span<const Triangle> triangles, double error, const std::function<bool(TriangleMesh)>& take);
 
 } // namespace palp

@@ -119,7 +119,40 @@ FileSurface placed(const PatientImage& volume, ImageContour& contour)
     .field = fieldOf(volume) };
 }
 
+Eigen::AlignedBox3d boxAbout(std::span<const Eigen::Vector3d> points)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points)
+  {
+    box.extend(point);
+  }
+  return box;
+}
+
 } // namespace
+
+Eigen::AlignedBox3d boxInPatient(const PatientImage& volume, const VoxelBox& box)
+{
+  using Eigen::Array3d;
+  const int* extent = volume.image->GetExtent(); // whose first voxel may be any
+  const Array3d first(extent[0], extent[2], extent[4]);
+  const auto placeOf = [&](const std::array<int, 3>& voxel, double beyond)
+  {
+    const Array3d index = first + Eigen::Array3i(voxel.data()).cast<double>() + beyond;
+    return (Array3d(volume.image->GetOrigin()) + Array3d(volume.image->GetSpacing()) * index)
+      .eval();
+  };
+  const Array3d low = placeOf(box.low, -0.5);
+  const Array3d high = placeOf(box.high, 0.5);
+  std::vector<Eigen::Vector3d> corners;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Array3i isHigh(corner & 1, corner >> 1 & 1, corner >> 2);
+    corners.emplace_back((isHigh == 1).select(high, low));
+  }
+  toPatient(volume, corners);
+  return boxAbout(corners);
+}
 
 double fieldOf(const PatientImage& volume)
 {
@@ -285,6 +318,7 @@ FileOrgan bodyOf(
   organ.from = std::move(contour.from);
   organ.surface = placed(volume, contour);
   organ.surface.notes = std::move(region.notes);
+  organ.box = boxAbout(organ.surface.points);
   return organ;
 }
 

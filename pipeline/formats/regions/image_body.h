@@ -46,6 +46,9 @@ void checkNumbers(const ImageValues& values, const std::string& name);
 [[nodiscard]] FileOrgan bodyOf(
   const PatientImage& volume, ImageRegion region, std::size_t components, const std::string& name);
 
+/// What holds some voxels whole, in the patient's axes [unit].
+[[nodiscard]] Eigen::AlignedBox3d boxInPatient(const PatientImage& volume, const VoxelBox& box);
+
 /// Longest side of all voxels together [unit].
 [[nodiscard]] double fieldOf(const PatientImage& volume);
 

@@ -75,6 +75,7 @@ FileOrgan listed(const LabelGroup& labels, const PatientImage& volume)
   }
   organ.voxelVolume = static_cast<double>(organ.voxels) * voxelVolume(volume);
   organ.surface.field = fieldOf(volume);
+  organ.box = boxInPatient(volume, boxOf(labels));
   return organ;
 }
 
@@ -148,8 +149,8 @@ FileSurface imageSurface(const PatientImage& volume, const ImagePart& part, cons
   return bodyOf(volume, std::move(region), part.components, name).surface;
 }
 
-FileOrgans imageOrgans(
-  const PatientImage& volume, const ImagePart& part, bool isList, const std::string& name)
+FileOrgans imageOrgans(const PatientImage& volume, const ImagePart& part, const OrgansAsked& asked,
+  const std::string& name)
 {
   checkVolume(volume, name);
   FileOrgans all{ .unit = volume.unit, .space = volume.space, .notes = volume.notes };
@@ -175,10 +176,15 @@ FileOrgans imageOrgans(
   {
     all.notes.push_back(empty);
   }
-  for (const LabelGroup& labels : wantedLabels(volume, known, part, isList, name, all.notes))
+  const std::vector<LabelGroup> wanted =
+    wantedLabels(volume, known, part, asked.isList, name, all.notes);
+  const auto isMade = [&](std::size_t place)
+  { return wanted.size() == 1 || !asked.places || std::ranges::count(*asked.places, place) > 0; };
+  for (std::size_t i = 0; i < wanted.size(); ++i)
   {
-    all.organs.push_back(
-      isList ? listed(labels, volume) : organOf(labels, volume, part.components, name));
+    all.organs.push_back(!asked.isList && isMade(i)
+        ? organOf(wanted[i], volume, part.components, name)
+        : listed(wanted[i], volume));
   }
   return all;
 }

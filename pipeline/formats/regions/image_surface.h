@@ -21,9 +21,9 @@ namespace palp
 /// Each of some labels, all where none is named, as a body of its own; or the one of a level or a
 /// band of values.
 ///
-/// @param isList  whether they are only listed
+/// @param asked   of labels; what is one body alone gets its surface with no place named
 /// @throws Error  as imageSurface
-[[nodiscard]] FileOrgans imageOrgans(
-  const PatientImage& volume, const ImagePart& part, bool isList, const std::string& name);
+[[nodiscard]] FileOrgans imageOrgans(const PatientImage& volume, const ImagePart& part,
+  const OrgansAsked& asked, const std::string& name);
 
 } // namespace palp

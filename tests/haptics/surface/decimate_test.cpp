@@ -50,8 +50,13 @@ TEST(Decimate, ToSeveralCountsIsThatToEachOfThem)
 {
   const Surface fine = test::makeSurface(test::ball(0.05, 40));
   const std::array<std::size_t, 3> counts{ 5000, 2500, 300 };
-  const std::vector<TriangleMesh> levels =
-    decimatedTo(counts, fine.points(), fine.triangles(), 1.0);
+  std::vector<TriangleMesh> levels;
+  const auto take = [&](TriangleMesh mesh)
+  {
+    levels.push_back(std::move(mesh));
+    return true;
+  };
+  decimateTo(counts, fine.points(), fine.triangles(), 1.0, take);
   ASSERT_EQ(levels.size(), 3U);
   for (std::size_t i = 0; i < counts.size(); ++i)
   {
@@ -63,6 +68,20 @@ TEST(Decimate, ToSeveralCountsIsThatToEachOfThem)
                 .largest,
       1.5 * deviation(fine, Surface(alone.points, alone.triangles)).largest + 1e-6);
   }
+}
+
+TEST(Decimate, EndsWhereTheRestIsNotWanted)
+{
+  const Surface fine = test::makeSurface(test::ball(0.05, 40));
+  const std::array<std::size_t, 3> counts{ 5000, 2500, 300 };
+  std::size_t taken = 0;
+  decimateTo(counts, fine.points(), fine.triangles(), 1.0,
+    [&](const TriangleMesh& mesh)
+    {
+      EXPECT_GT(mesh.points.size(), 2000U);
+      return ++taken < 2;
+    });
+  EXPECT_EQ(taken, 2U);
 }
 
 TEST(Decimate, KeepsABlockExactly)
