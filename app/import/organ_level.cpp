@@ -15,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <future>
+#include <limits>
 #include <vtkPolyData.h>
 
 namespace palp
@@ -30,6 +31,24 @@ struct Boundary
   std::vector<Eigen::Vector3d> points; // [m]
   BoxTree tree;
 };
+
+// what is known of a surface
+struct Found
+{
+  Deviation apart;          // from its boundary
+  std::size_t crossing = 0; // triangles that others pass through
+};
+
+Found foundOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
+  const Boundary& boundary)
+{
+  const BoxTree tree(points, triangles);
+  auto crossing =
+    std::async(std::launch::async, [&] { return crossingTriangles(tree, triangles).size(); });
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  const Deviation apart = deviation(points, tree, boundary.points, boundary.tree, kAll, true);
+  return { .apart = apart, .crossing = crossing.get() };
+}
 
 OrganLevel levelOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
   const Deviation& apart)
@@ -69,7 +88,8 @@ bool seemsNear(std::span<const Eigen::Vector3d> points, const TriangleMesh& mesh
 // Of as few points as stay within what the voxels tell. Where not even half of them do, that is
 // known at once, and not after all that are coarser.
 std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
-  std::span<const Triangle> triangles, double voxel, double shownApart, const Boundary& boundary)
+  std::span<const Triangle> triangles, double voxel, const std::shared_future<Found>& shown,
+  const Boundary& boundary)
 {
   std::vector<std::size_t> counts;
   for (std::size_t count = kHapticPoints; 2 * count <= points.size(); count *= 2)
@@ -80,12 +100,13 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   {
     return std::nullopt; // it is felt as it is
   }
-  const double most = std::max(voxel, shownApart);
+  double most = voxel;
   std::vector<TriangleMesh> finer;
   decimateTo(counts, points, triangles, 0.5 * voxel,
     [&](TriangleMesh felt)
     {
       finer.push_back(std::move(felt));
+      most = std::max(voxel, shown.get().apart.largest);
       return finer.size() > 1 || seemsNear(boundary.points, finer.front(), most);
     });
   const auto nearEnough = [&](const TriangleMesh& felt)
@@ -119,6 +140,23 @@ void addWarnings(const std::vector<std::string>& notes, std::vector<std::string>
   }
 }
 
+void warnOf(
+  const Found& shown, const std::string& noneFelt, double voxel, std::vector<std::string>& warnings)
+{
+  if (constexpr double kFar = 2.0; shown.apart.largest > kFar * voxel)
+  {
+    warnings.push_back("pieces of a few voxels are smoothed away, up to " +
+      units::inMillimeters(shown.apart.largest) + " from what is left");
+  }
+  noneFelt.empty() ? void() : warnings.push_back(noneFelt);
+  if (shown.crossing > 0)
+  {
+    warnings.push_back("its surface passes through itself, by " +
+      counted(shown.crossing, "triangle") +
+      ", where the image is noisy or the organ as thin as a voxel; smooth the image there");
+  }
+}
+
 } // namespace
 
 ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image, LengthUnit unit)
@@ -140,39 +178,24 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
   addWarnings(loaded.notes, result.warnings);
   const std::vector<Eigen::Vector3d> points = pointsOf(*loaded.mesh);
   const std::vector<Triangle> triangles = trianglesOf(*loaded.mesh);
-  const BoxTree tree(points, triangles);
-  auto crossing =
-    std::async(std::launch::async, [&] { return crossingTriangles(tree, triangles).size(); });
-  result.volume = enclosedVolume(points, triangles);
-  result.shown =
-    levelOf(points, triangles, deviation(points, tree, boundary.points, boundary.tree));
-  if (constexpr double kFar = 2.0; result.shown.apart.largest > kFar * length * organ.voxel)
-  {
-    result.warnings.push_back("pieces of a few voxels are smoothed away, up to " +
-      units::inMillimeters(result.shown.apart.largest) + " from what is left");
-  }
+  const std::shared_future<Found> shown =
+    std::async(std::launch::async, [&] { return foundOf(points, triangles, boundary); });
+  std::string noneFelt; // why
   try
   {
-    result.felt =
-      feltLevel(points, triangles, length * organ.voxel, result.shown.apart.largest, boundary);
-    if (!result.felt && points.size() >= 2 * kHapticPoints)
-    {
-      result.warnings.emplace_back(
-        "no coarser level: none of half as many points stays within a voxel of it");
-    }
+    result.felt = feltLevel(points, triangles, length * organ.voxel, shown, boundary);
+    noneFelt = result.felt || points.size() < 2 * kHapticPoints
+      ? ""
+      : "no coarser level: none of half as many points stays within a voxel of it";
   }
   catch (const Error&) // an edge of three triangles
   {
-    result.warnings.emplace_back(
-      "no coarser level, so what is shown is felt, which takes longer: "
-      "parts of it meet only in edges or points; smooth the image there");
+    noneFelt = "no coarser level, so what is shown is felt, which takes longer: "
+               "parts of it meet only in edges or points; smooth the image there";
   }
-  if (const std::size_t count = crossing.get(); count > 0)
-  {
-    result.warnings.push_back("its surface passes through itself, by " +
-      counted(count, "triangle") +
-      ", where the image is noisy or the organ as thin as a voxel; smooth the image there");
-  }
+  result.volume = enclosedVolume(points, triangles);
+  result.shown = levelOf(points, triangles, shown.get().apart);
+  warnOf(shown.get(), noneFelt, length * organ.voxel, result.warnings);
   return result;
 }
 

@@ -25,16 +25,11 @@ struct Box
   }
 };
 
-// a triangle waiting for its place in the tree
+// a triangle waiting for its place in the tree; small, as each is moved once a level
 struct Entry
 {
-  Box box;
+  std::array<float, 3> middle; // twice that of its box
   int triangle;
-
-  [[nodiscard]] float middle(int axis) const
-  {
-    return box.low[axis] + box.high[axis];
-  }
 };
 
 float roundedDown(double value)
@@ -68,38 +63,45 @@ bool makeFacet(std::span<const Eigen::Vector3d> points, const Triangle& triangle
   return !facet.normal.isZero(0.0);
 }
 
-// median split along the longest side of the box of the middles
-void split(std::vector<BoxTree::Node>& nodes, std::span<Entry> entries, int first)
+void setBox(BoxTree::Node& node, const Box& box)
 {
+  node.low = { box.low[0], box.low[1], box.low[2] };
+  node.high = { box.high[0], box.high[1], box.high[2] };
+}
+
+// median split along the longest side of the box of the middles; the box of all that is below
+Box split(std::vector<BoxTree::Node>& nodes, std::span<Entry> entries, int first,
+  std::span<const Box> boxes)
+{
+  const std::size_t self = nodes.size();
+  nodes.push_back(
+    { .low = {}, .first = first, .high = {}, .count = static_cast<std::int32_t>(entries.size()) });
   Box box;
+  if (entries.size() <= static_cast<std::size_t>(kLeaf))
+  {
+    std::ranges::for_each(entries, [&](const Entry& one) { box.add(boxes[at(one.triangle)]); });
+    setBox(nodes[self], box);
+    return box;
+  }
+
   Box middles;
   for (const Entry& entry : entries)
   {
-    box.add(entry.box);
-    const Eigen::Array3f middle = entry.box.low + entry.box.high;
-    middles.low = middles.low.min(middle);
-    middles.high = middles.high.max(middle);
+    const Eigen::Array3f middle(entry.middle.data());
+    middles.add({ .low = middle, .high = middle });
   }
-  const std::size_t self = nodes.size();
-  nodes.push_back({ .low = { box.low[0], box.low[1], box.low[2] },
-    .first = first,
-    .high = { box.high[0], box.high[1], box.high[2] },
-    .count = static_cast<std::int32_t>(entries.size()) });
-  if (entries.size() <= static_cast<std::size_t>(kLeaf))
-  {
-    return;
-  }
-
-  int axis = 0;
+  std::size_t axis = 0;
   (middles.high - middles.low).maxCoeff(&axis);
   const std::size_t half = entries.size() / 2;
   std::nth_element(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(half),
     entries.end(),
-    [axis](const Entry& a, const Entry& b) { return a.middle(axis) < b.middle(axis); });
+    [axis](const Entry& a, const Entry& b) { return a.middle[axis] < b.middle[axis]; });
   nodes[self].count = 0;
-  split(nodes, entries.first(half), first);
+  box = split(nodes, entries.first(half), first, boxes);
   nodes[self].first = static_cast<std::int32_t>(nodes.size());
-  split(nodes, entries.subspan(half), first + static_cast<int>(half));
+  box.add(split(nodes, entries.subspan(half), first + static_cast<int>(half), boxes));
+  setBox(nodes[self], box);
+  return box;
 }
 
 } // namespace
@@ -129,12 +131,15 @@ BoxTree::BoxTree(std::span<const Eigen::Vector3d> points, std::span<const Triang
 {
   std::vector<Entry> entries;
   entries.reserve(triangles.size());
+  std::vector<Box> boxes(triangles.size());
   Facet facet;
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     if (makeFacet(points, triangles[i], facet))
     {
-      entries.push_back({ boxOf(facet), static_cast<int>(i) });
+      boxes[i] = boxOf(facet);
+      const Eigen::Array3f middle = boxes[i].low + boxes[i].high;
+      entries.push_back({ { middle[0], middle[1], middle[2] }, static_cast<int>(i) });
     }
   }
   if (entries.empty())
@@ -142,7 +147,7 @@ BoxTree::BoxTree(std::span<const Eigen::Vector3d> points, std::span<const Triang
     return;
   }
   nodes_.reserve(entries.size());
-  split(nodes_, entries, 0);
+  (void)split(nodes_, entries, 0, boxes);
 
   facets_.reserve(entries.size());
   order_.reserve(entries.size());

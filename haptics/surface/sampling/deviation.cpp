@@ -26,9 +26,10 @@ std::vector<Eigen::Vector3d> usedPoints(const Surface& surface)
   return used;
 }
 
-// of points to triangles: the largest, and the sum of the squares, or until one is more than most
-std::pair<double, double> distances(
-  std::span<const Eigen::Vector3d> from, const BoxTree& to, double most)
+// Of points to triangles: the largest, and the sum of the squares, or until one is more than most.
+// pairs: places on them, near the points
+std::pair<double, double> distances(std::span<const Eigen::Vector3d> from, const BoxTree& to,
+  double most, std::span<const Eigen::Vector3d> pairs)
 {
   constexpr double kAbove = 1.0 + 1e-9; // rounding
   double largest = 0.0;
@@ -36,6 +37,7 @@ std::pair<double, double> distances(
   double reach = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < from.size() && largest <= most; ++i)
   {
+    reach = i < pairs.size() ? std::min(reach, kAbove * (pairs[i] - from[i]).norm()) : reach;
     const double distance = distanceTo(to, from[i], reach);
     // a step away it is at most a step more, which is quick where points follow one another
     reach = i + 1 < from.size() ? kAbove * (distance + (from[i + 1] - from[i]).norm()) : reach;
@@ -53,10 +55,12 @@ Deviation deviation(const Surface& a, const Surface& b)
 }
 
 Deviation deviation(std::span<const Eigen::Vector3d> a, const BoxTree& aTree,
-  std::span<const Eigen::Vector3d> b, const BoxTree& bTree, double most)
+  std::span<const Eigen::Vector3d> b, const BoxTree& bTree, double most, bool paired)
 {
-  auto other = std::async(std::launch::async, distances, b, std::cref(aTree), most);
-  const auto [largest, sum] = distances(a, bTree, most);
+  const std::span<const Eigen::Vector3d> none;
+  auto other =
+    std::async(std::launch::async, distances, b, std::cref(aTree), most, paired ? a : none);
+  const auto [largest, sum] = distances(a, bTree, most, paired ? b : none);
   const auto [otherLargest, otherSum] = other.get();
   return { .largest = std::max(largest, otherLargest),
     .rootMeanSquare = std::sqrt((sum + otherSum) / static_cast<double>(a.size() + b.size())) };
