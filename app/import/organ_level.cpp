@@ -85,7 +85,7 @@ bool seemsNear(std::span<const Eigen::Vector3d> points, const TriangleMesh& mesh
   return true;
 }
 
-// Of as few points as stay within what the voxels tell. Where not even half of them do, that is
+// Of as few points as stay within what the voxels tell. Where not even most of them do, that is
 // known at once, and not after all that are coarser.
 std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   std::span<const Triangle> triangles, double voxel, const std::shared_future<Found>& shown,
@@ -100,15 +100,24 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   {
     return std::nullopt; // it is felt as it is
   }
-  double most = voxel;
+  counts.insert(counts.begin(), points.size() * 3 / 4); // to try, before all else is made
+  double most = 0.0;
   std::vector<TriangleMesh> finer;
   decimateTo(counts, points, triangles, 0.5 * voxel,
     [&](TriangleMesh felt)
     {
-      finer.push_back(std::move(felt));
+      if (most > 0.0)
+      {
+        finer.push_back(std::move(felt));
+        return true;
+      }
       most = std::max(voxel, shown.get().apart.largest);
-      return finer.size() > 1 || seemsNear(boundary.points, finer.front(), most);
+      return seemsNear(boundary.points, felt, most);
     });
+  if (finer.empty())
+  {
+    return std::nullopt;
+  }
   const auto nearEnough = [&](const TriangleMesh& felt)
   {
     const Deviation apart = deviation(

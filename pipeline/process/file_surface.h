@@ -44,7 +44,7 @@ struct FileSurface
   std::string unit;                    ///< that the file states; empty: none
   std::vector<std::string> notes;      ///< how it was taken, for people; "warning: ..." as well
   std::string space{}; ///< of its axes: "LPS", to the patient's left, back and head; empty: unknown
-  double field = 0.0;  ///< longest side of the image it is from, in the unit; 0: of no image
+  double field = 0.0;  ///< longest side of the image whose level it is, in the unit; 0: of none
 };
 
 /// Name of the field array by which a VTP or VTK file states its unit: "mm", "cm" or "m".

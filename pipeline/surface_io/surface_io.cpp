@@ -239,7 +239,8 @@ LoadedSurface readSurface(const std::filesystem::path& file, UnitChoice unit, co
 LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& file, UnitChoice unit)
 {
   const std::string name = file.filename().string();
-  const RepairedSurface repaired = repair(read.points, read.triangles, file.string());
+  const RepairedSurface repaired =
+    repair(read.points, read.triangles, file.string(), read.field > 0.0);
 
   std::string why = "as asked";
   std::vector<std::string> warnings = repaired.warnings;

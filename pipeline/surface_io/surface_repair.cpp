@@ -37,7 +37,7 @@ void warnOfEdges(const Edges& edges, std::vector<std::string>& warnings)
 } // namespace
 
 RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
-  std::span<const Triangle> fileTriangles, const std::string& name)
+  std::span<const Triangle> fileTriangles, const std::string& name, bool isLevel)
 {
   RepairedSurface result;
   MergedMesh mesh = mergedMesh(filePoints, fileTriangles);
@@ -56,7 +56,7 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
   const Edges edges = edgesOf(mesh.points.size(), mesh.triangles);
   result.closed = edges.unpaired.empty();
   warnOfEdges(edges, result.warnings);
-  const Facing facing = facingOf(mesh.points, mesh.triangles, edges);
+  const Facing facing = isLevel ? Facing{} : facingOf(mesh.points, mesh.triangles, edges);
   if (facing.twisted)
   {
     result.closed = false;

@@ -29,8 +29,10 @@ struct RepairedSurface
 /// @param points     finite
 /// @param triangles  indices in range
 /// @param name       stands before the message
+/// @param isLevel    whether it is where an image has one value, so that bodies face outward and
+///                   hollows inward already
 /// @throws Error     BadMesh: no triangle with an area remains
 [[nodiscard]] RepairedSurface repair(std::span<const Eigen::Vector3d> points,
-  std::span<const Triangle> triangles, const std::string& name);
+  std::span<const Triangle> triangles, const std::string& name, bool isLevel = false);
 
 } // namespace palp

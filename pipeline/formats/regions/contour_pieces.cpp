@@ -13,6 +13,8 @@ namespace palp
 namespace
 {
 
+constexpr double kHalfAround = 0.5; // of all directions
+
 // what hangs together
 struct Piece
 {
@@ -58,9 +60,8 @@ void dropFilled(std::span<const Eigen::Vector3d> points, std::span<const Triangl
   const Winding winding(BoxTree(points, walls));
   for (Piece& piece : pieces)
   {
-    constexpr double kHalf = 0.5; // of a turn of all directions
     const bool isSmall = piece.volume > 0.0 && piece.volume < leastHollow;
-    piece.volume *= isSmall && std::abs(winding(points[at(piece.point)])) > kHalf ? 0.0 : 1.0;
+    piece.volume *= isSmall && std::abs(winding(points[at(piece.point)])) > kHalfAround ? 0.0 : 1.0;
   }
 }
 
@@ -79,7 +80,8 @@ std::size_t keepLargest(std::vector<Piece>& pieces, std::size_t components)
   return kept;
 }
 
-// whether each hollow lies in a body that is kept: it is gone around once, and by no other hollow
+// Whether each hollow lies in a body that is kept: in none that is left out. None of those is
+// around one that is kept, which is larger.
 std::vector<bool> hollowsWithin(std::span<const Eigen::Vector3d> points,
   std::span<const Triangle> triangles, std::span<const int> numbers,
   const std::vector<Piece>& pieces)
@@ -88,16 +90,14 @@ std::vector<bool> hollowsWithin(std::span<const Eigen::Vector3d> points,
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     const Piece& piece = pieces[at(numbers[i])];
-    piece.isKept || piece.volume < 0.0 ? walls.push_back(triangles[i]) : void();
+    piece.volume > 0.0 && !piece.isKept ? walls.push_back(triangles[i]) : void();
   }
   const Winding winding(BoxTree(points, walls));
-  const auto outer = std::ranges::max_element(pieces, {}, &Piece::volume);
-  const Eigen::Vector3d& on = points[at(outer->point)];
-  const double side = winding(on) < 0.0 ? -1.0 : 1.0; // inside the largest
   std::vector<bool> within(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    within[i] = pieces[i].volume < 0.0 && side * winding(points[at(pieces[i].point)]) > 0.0;
+    within[i] =
+      pieces[i].volume < 0.0 && std::abs(winding(points[at(pieces[i].point)])) < kHalfAround;
   }
   return within;
 }
