@@ -171,11 +171,12 @@ void addCheckCommand(CLI::App& app)
     app.add_subcommand("check", "Tell what of a surface disturbs a press, and repair what is safe");
   options->source.addTo(*command);
   command->get_option("FILE")->required();
-  command->add_option("--repair", options->repaired,
+  auto* repair = command->add_option("--repair", options->repaired,
     "Surface to write, .vtp, .stl, .ply or .obj in mm: merged, oriented, without slivers, parted "
     "where it is not manifold");
   addParsed(*command, "--close-holes", "Length around the largest hole that --repair closes", "0mm",
-    [all](const std::string& text) { all->largestHole = parseLargestHole(text, "--close-holes"); });
+    [all](const std::string& text) { all->largestHole = parseLargestHole(text, "--close-holes"); })
+    ->needs(repair);
   command->add_option("--faults", options->faults,
     "Surface to write as it was read, .vtp, whose cell array fault numbers the fault of each "
     "triangle");

@@ -4,20 +4,26 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/units.h"
+#include "pipeline/surface_io/label_names.h"
 #include "pipeline/surface_io/surface_io.h"
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDir>
+#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QPushButton>
+#include <QSignalBlocker>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 namespace palp
@@ -89,44 +95,41 @@ void OpenDialog::setLabels(FileOrgans found)
   {
     return;
   }
-  auto* list = new QListWidget;
-  list->setObjectName("labels");
-  list->setAccessibleName(tr("Labels"));
-  list->setToolTip(tr("A tick opens the label"));
-  const UnitChoice unit = unitNamed(found.unit);
+  list_ = new QListWidget;
+  list_->setObjectName("labels");
+  list_->setAccessibleName(tr("Labels"));
+  list_->setToolTip(tr("A tick opens the label"));
+  listedIn_ = unitNamed(found.unit);
   for (const FileOrgan& organ : listed_)
   {
-    QString text =
-      QString::fromStdString(organ.label + "  " + organ.name) + tr("  %1 voxels").arg(organ.voxels);
-    if (unit)
-    {
-      const double volume = std::pow(unitLength(*unit), 3) * organ.voxelVolume;
-      const double milliliters = units::toMilliliters(volume);
-      text += milliliters < 1000.0 ? tr("  %1 ml").arg(milliliters, 0, 'g', 4)
-                                   : tr("  %1 ml").arg(milliliters, 0, 'f', 0);
-    }
-    auto* item = new QListWidgetItem(text, list);
+    auto* item = new QListWidgetItem(lineOf(organ), list_);
     item->setData(Qt::UserRole, QString::fromStdString(csvField(askedFor(organ))));
     item->setCheckState(Qt::Unchecked);
   }
-  connect(list, &QListWidget::itemChanged, this,
-    [this, list]
+  connect(list_, &QListWidget::itemChanged, this,
+    [this]
     {
       QStringList ticked;
-      for (int i = 0; i < list->count(); ++i)
+      for (int i = 0; i < list_->count(); ++i)
       {
-        if (list->item(i)->checkState() == Qt::Checked)
+        if (list_->item(i)->checkState() == Qt::Checked)
         {
-          ticked << list->item(i)->data(Qt::UserRole).toString();
+          ticked << list_->item(i)->data(Qt::UserRole).toString();
         }
       }
       label_->setText(ticked.join(','));
     });
+  auto* names = new QPushButton(tr("Names from a table..."));
+  names->setObjectName("names");
+  names->setAutoDefault(false);
+  names->setToolTip(tr("Of 3D Slicer, ITK-SNAP, or JSON as of TotalSegmentator"));
+  connect(names, &QPushButton::clicked, this, &OpenDialog::chooseNames);
   auto* rows = static_cast<QFormLayout*>(layout());
   int row = 0;
   QFormLayout::ItemRole role{};
   rows->getWidgetPosition(label_, &row, &role);
-  rows->insertRow(row + 1, tr("Labels in it"), list);
+  rows->insertRow(row + 1, tr("Labels in it"), list_);
+  rows->insertRow(row + 2, {}, names);
   label_->setFocus(); // what is asked for most
   if (listed_.size() > 1)
   {
@@ -134,15 +137,68 @@ void OpenDialog::setLabels(FileOrgans found)
     areOrgans_->setObjectName("areOrgans");
     areOrgans_->setToolTip(tr("Organs have a tissue, a color and a role each"));
     areOrgans_->setChecked(true);
-    rows->insertRow(row + 2, {}, areOrgans_);
+    rows->insertRow(row + 3, {}, areOrgans_);
   }
+}
+
+void OpenDialog::setNames(const std::filesystem::path& table)
+{
+  const std::vector<LabelName> names = readLabelNames(table);
+  const std::map<double, std::string> colors = readLabelColors(table);
+  const QSignalBlocker quiet(list_); // no tick changes
+  for (std::size_t i = 0; i < listed_.size(); ++i)
+  {
+    FileOrgan& organ = listed_[i];
+    const std::optional<double> value = csvNumber(organ.label);
+    if (!value || !isOnce(organ))
+    {
+      continue;
+    }
+    const auto name = std::ranges::find(names, *value, &LabelName::value);
+    const auto color = colors.find(*value);
+    organ.name = name != names.end() ? name->name : organ.name;
+    organ.color = color != colors.end() ? color->second : organ.color;
+    list_->item(static_cast<int>(i))->setText(lineOf(organ));
+  }
+}
+
+void OpenDialog::chooseNames()
+{
+  const QString table = QFileDialog::getOpenFileName(this, tr("Open table of names"), {},
+    tr("Tables (*.ctbl *.csv *.txt *.label *.json);;All files (*)"));
+  try
+  {
+    table.isEmpty() ? void() : setNames(table.toStdString());
+  }
+  catch (const Error& error)
+  {
+    setReason(QString::fromStdString(error.what()));
+  }
+}
+
+QString OpenDialog::lineOf(const FileOrgan& organ) const
+{
+  QString text =
+    QString::fromStdString(organ.label + "  " + organ.name) + tr("  %1 voxels").arg(organ.voxels);
+  if (listedIn_)
+  {
+    const double volume = std::pow(unitLength(*listedIn_), 3) * organ.voxelVolume;
+    const double milliliters = units::toMilliliters(volume);
+    text += milliliters < 1000.0 ? tr("  %1 ml").arg(milliliters, 0, 'g', 4)
+                                 : tr("  %1 ml").arg(milliliters, 0, 'f', 0);
+  }
+  return text;
+}
+
+bool OpenDialog::isOnce(const FileOrgan& organ) const
+{
+  return std::ranges::count(listed_, organ.label, &FileOrgan::label) == 1;
 }
 
 // its value, but where layers use that twice its name
 std::string OpenDialog::askedFor(const FileOrgan& organ) const
 {
-  const bool isTold = std::ranges::count(listed_, organ.label, &FileOrgan::label) == 1;
-  return isTold || organ.name.empty() ? organ.label : organ.name;
+  return isOnce(organ) || organ.name.empty() ? organ.label : organ.name;
 }
 
 std::vector<FileOrgan> OpenDialog::organs() const
@@ -155,6 +211,7 @@ std::vector<FileOrgan> OpenDialog::organs() const
       std::ranges::find(listed_, label, [this](const FileOrgan& organ) { return askedFor(organ); });
     organs.push_back({ .label = label,
       .name = found != listed_.end() ? found->name : std::string(),
+      .color = found != listed_.end() ? found->color : std::string(),
       .surface = {},
       .from = {} });
   }

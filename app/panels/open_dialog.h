@@ -11,6 +11,7 @@ class QCheckBox;
 class QComboBox;
 class QLabel;
 class QLineEdit;
+class QListWidget;
 
 namespace palp
 {
@@ -32,6 +33,10 @@ public:
   /// @param found  in that image; nothing is listed where there is none
   void setLabels(FileOrgans found);
 
+  /// Calls them as a table does, with its colors: those whose value the image has once.
+  /// @throws Error  as readLabelNames
+  void setNames(const std::filesystem::path& table);
+
   /// The labels that are to be an organ each, with name; none: source() is one body.
   [[nodiscard]] std::vector<FileOrgan> organs() const;
 
@@ -42,7 +47,10 @@ public:
   void accept() override; ///< stays, with the reason, where what was typed is refused
 
 private:
+  [[nodiscard]] bool isOnce(const FileOrgan& organ) const;
   [[nodiscard]] std::string askedFor(const FileOrgan& organ) const;
+  [[nodiscard]] QString lineOf(const FileOrgan& organ) const;
+  void chooseNames();
 
   std::filesystem::path file_;
   QLabel* why_;
@@ -52,7 +60,9 @@ private:
   QLineEdit* label_;  // likewise
   QComboBox* unit_;
   QCheckBox* areOrgans_ = nullptr; // null: there are not several labels
+  QListWidget* list_ = nullptr;    // likewise
   std::vector<FileOrgan> listed_;
+  UnitChoice listedIn_; // their unit
 };
 
 /// The endings of files that hold an image, as in `*.mha *.nii.gz`.

@@ -150,7 +150,7 @@ private:
     const Vertex from = mesh_.from_vertex_handle(edge);
     const Vertex to = mesh_.to_vertex_handle(edge);
     if (known(from).round == now_ || known(to).round == now_ || !keepsTopology(edge) ||
-      turnsOver(from, to))
+      spoils(from, to))
     {
       return;
     }
@@ -234,9 +234,11 @@ private:
     return common == (isRim ? 1 : 2) && !isThin;
   }
 
-  [[nodiscard]] bool turnsOver(Vertex from, Vertex to) const
+  // whether a triangle would turn over, or become a sliver
+  [[nodiscard]] bool spoils(Vertex from, Vertex to) const
   {
-    constexpr double kMost = 0.7; // cosine
+    constexpr double kMost = 0.7;  // cosine
+    constexpr double kThin = 0.02; // height over longest edge
     for (const HalfEdge out : mesh_.voh_range(from))
     {
       const Vertex a = mesh_.to_vertex_handle(out);
@@ -249,7 +251,11 @@ private:
       const OpenMesh::Vec3d before = areaOf(mesh_.point(from), one, other);
       const OpenMesh::Vec3d after = areaOf(mesh_.point(to), one, other);
       const double size = before.norm();
-      if (size > 0.0 && !((before | after) > kMost * size * after.norm()))
+      const double left = after.norm();
+      const OpenMesh::Vec3d& place = mesh_.point(to);
+      const double longest =
+        std::max({ (one - place).sqrnorm(), (other - place).sqrnorm(), (one - other).sqrnorm() });
+      if (size > 0.0 && !((before | after) > kMost * size * left && left > kThin * longest))
       {
         return true;
       }

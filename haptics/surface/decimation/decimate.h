@@ -27,7 +27,7 @@ struct TriangleMesh
 /// @param points     finite [m]
 /// @param triangles  indices in range
 /// @param count      of points that are left, or more where topology, triangles that would turn
-///                   over, or the error do not allow it; 4 or more
+///                   over or become slivers, or the error do not allow it; 4 or more
 /// @param error      by which a point may be off the planes of the triangles that it stands for,
 ///                   root mean square [m]
 /// @return           closed where the surface is

@@ -1,5 +1,6 @@
 #include "app/panels/open_dialog.h"
 
+#include "haptics/error.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/app/application.h"
 #include "tests/app/panels/label_map.h"
@@ -41,6 +42,32 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
   EXPECT_TRUE(dialog.organs().empty()) << "one body of both";
   list->item(0)->setCheckState(Qt::Unchecked);
   EXPECT_EQ(dialog.source().part.labels, std::vector<std::string>{ "7" });
+}
+
+// as 3D Slicer writes it; a label that it does not name stays as it is
+TEST(OpenDialog, CallsLabelsAsATableDoes)
+{
+  test::application();
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = test::writeLabelMap(folder.path() / "a.mha");
+  OpenDialog dialog(QString::fromStdString(file.string()));
+  dialog.setLabels(readFileOrgans(file, {}, true));
+  auto* list = dialog.findChild<QListWidget*>("labels");
+  list->item(1)->setCheckState(Qt::Checked);
+  const std::filesystem::path table = folder.path() / "names.ctbl";
+  std::ofstream(table) << "7 spleen 10 32 255 255\n9 stomach 1 2 3 255\n";
+  dialog.setNames(table);
+  EXPECT_TRUE(list->item(1)->text().startsWith("7  spleen  16 voxels"))
+    << list->item(1)->text().toStdString();
+  EXPECT_TRUE(list->item(0)->text().startsWith("2    ")) << list->item(0)->text().toStdString();
+  EXPECT_EQ(dialog.findChild<QLineEdit*>("label")->text(), "7");
+  list->item(0)->setCheckState(Qt::Checked);
+  const std::vector<FileOrgan> organs = dialog.organs();
+  ASSERT_EQ(organs.size(), 2U);
+  EXPECT_EQ(organs[1].name, "spleen");
+  EXPECT_EQ(organs[1].color, "#0a20ff");
+  std::ofstream(table) << "7 spleen ten\n";
+  EXPECT_THROW(dialog.setNames(table), Error);
 }
 
 TEST(OpenDialog, TakesWhatHasValuesInARange)

@@ -168,7 +168,7 @@ std::vector<Fuzzed> segmentKinds()
       replaced("no layer", "none", "(1,0,0)", "axes|space"),
       replaced("value", "(LabelValue:=)1", "$017", "label"), foreign(offText(), kKind) });
   kind.read = [](const std::filesystem::path& file) {
-    return pack(readOrgans(file, { .labels = { "liver", "tumor" } }, false));
+    return pack(readOrgans(file, { .labels = { "liver", "tumor" } }, {}));
   };
   kind.take = takeOrgans;
   return { kind };
@@ -220,7 +220,7 @@ std::vector<Fuzzed> dicomSegmentKinds()
       replaced("kind", "BINARY", "OTHERS", "no BINARY"),
       replaced("place", "-3[0-9]", "-3x", "Position"), foreign(offText(), "DICOM") });
   kind.read = [](const std::filesystem::path& file)
-  { return pack(readOrgans(file, {}, false, kDicom)); };
+  { return pack(readOrgans(file, {}, {}, kDicom)); };
   kind.take = takeOrgans;
   return { kind };
 }
