@@ -107,6 +107,45 @@ TEST_F(Images, AStoneInAFilledHollowIsNoPieceOfItsOwn)
   }
 }
 
+// a cube of 18 voxels with a hollow of 12 that holds one of 8; beside it one of 10 with a hollow of
+// 6: hollows go with the body around them
+TEST_F(Images, HollowsGoWithTheBodyAroundThem)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(40, 24, 24);
+  image->SetSpacing(1.0, 1.5, 0.75);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  const auto isIn = [](const Eigen::Array3i& voxel, const Eigen::Array3i& low, int side)
+  { return (voxel >= low).all() && (voxel < low + side).all(); };
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const Eigen::Array3i voxel(
+      static_cast<int>(i % 40), static_cast<int>(i / 40 % 24), static_cast<int>(i / 960));
+    const bool isLarge = isIn(voxel, { 2, 3, 3 }, 18) != isIn(voxel, { 5, 6, 6 }, 12);
+    const bool isSmall = isIn(voxel, { 26, 8, 8 }, 10) != isIn(voxel, { 28, 10, 10 }, 6);
+    const bool isInside = isIn(voxel, { 7, 8, 8 }, 8);
+    image->GetPointData()->GetScalars()->SetComponent(
+      i, 0, isLarge || isSmall || isInside ? 1.0 : 0.0);
+  }
+  const auto file = write<vtkMetaImageWriter>("shells.mha", *image);
+  constexpr double kLarge = 18.0 * 18.0 * 18.0 - 12.0 * 12.0 * 12.0;
+  constexpr double kSmall = 10.0 * 10.0 * 10.0 - 6.0 * 6.0 * 6.0;
+  for (const auto& [components, words, voxels] :
+    { std::tuple(1UL, "the largest of its 3 pieces is taken, with 1 hollow", kLarge),
+      { 2UL, "the 2 largest of its 3 pieces are taken, with 2 hollows", kLarge + kSmall },
+      { ImagePart::kAllComponents, "3 pieces, with 2 hollows", kLarge + kSmall + 512.0 } })
+  {
+    ImagePart part{ .labels = { "1" } };
+    part.components = components;
+    const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, part);
+    EXPECT_TRUE(std::ranges::any_of(
+      surface.notes, [&](const std::string& note) { return note.find(words) != note.npos; }))
+      << words;
+    EXPECT_NEAR(volumeMm3(*surface.mesh) / (1.5 * 0.75), voxels, 0.005 * voxels) << words;
+    EXPECT_TRUE(surface.closed);
+  }
+}
+
 // which smoothing would leave nothing of, however many there are
 TEST_F(Images, OfSingleVoxelsIsNoBody)
 {
