@@ -109,7 +109,8 @@ int view(const palp::ViewOptions& options)
   if (!qEnvironmentVariableIsSet("DISPLAY") && !qEnvironmentVariableIsSet("WAYLAND_DISPLAY"))
   {
     throw palp::Error(palp::ErrorCode::NoPicture,
-      "window: there is no display here; use palp run, which needs none");
+      "window: there is no display here; use palp run, which needs none, or a scene with a path as "
+      "device and with exports");
   }
   palp::giveBackLargeBlocks();
   palp::BuildTrace trace(options.explain);

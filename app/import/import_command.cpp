@@ -212,11 +212,12 @@ void runImport(const ImportOptions& options)
   const LengthUnit unit = unitOf(all, options.unit, options.image, warnings);
   ImportSource source = sourceOf(options, all, unit);
   source.stamps = stamps;
+  checkUnchanged(options.image, stamps); // the hash is of what was read
   std::vector<std::string> files;
   nameFiles(all.organs, files, std::filesystem::canonical(options.image).stem().stem().string());
   ProgressLine progress("organs");
   progress(0, files.size());
-  const std::vector<ImportedOrgan> organs = importedOrgans(std::move(all), files, source, unit,
+  std::vector<ImportedOrgan> organs = importedOrgans(std::move(all), files, source, unit,
     output.stage(), [&](std::size_t done) { progress(done, files.size()); });
   for (const ImportedOrgan& organ : organs)
   {
@@ -224,6 +225,12 @@ void runImport(const ImportOptions& options)
     {
       warnings.push_back(organ.name + ": " + warning);
     }
+  }
+  std::erase_if(organs, [](const ImportedOrgan& organ) { return organ.shown.points == 0; });
+  if (organs.empty())
+  {
+    throw Error(ErrorCode::BadMesh,
+      printable(options.image.string()) + ": no label of it is a body; " + warnings.front());
   }
   replaceFile(output.stage() / kImportScene, importScene(source, organs));
   replaceFile(output.stage() / kImportManifest, importManifest(source, organs));
@@ -268,8 +275,9 @@ void addParts(CLI::App& command, ImportOptions& options)
   addParsed(command, "--series",
     "Which one where IN is a folder of several DICOM series: its place in the list, or its UID", "",
     [part](const std::string& text) { part->series = text; });
-  addParsed(command, "--components", "How many pieces of each: largest, all, or a number",
-    "largest", [part](const std::string& text) { part->components = parseComponents(text); });
+  addParsed(command, "--components",
+    "How many pieces of each: largest, all of eight voxels or more, or a number", "largest",
+    [part](const std::string& text) { part->components = parseComponents(text); });
 }
 
 } // namespace
@@ -294,8 +302,11 @@ void addImportCommand(CLI::App& app)
     "fewer\n"
     "points where it has more than 20000, scene.json, which palp scene opens, and import.json: "
     "source\n"
-    "and hash, labels, voxels, volumes, and how far each surface is from where its voxels end.\n"
-    "Surfaces are closed, also where the image ends, and bend as little as the voxels allow.\n"
+    "and hash, labels, voxels, volumes, and how far each surface is from the contour of its "
+    "voxels,\n"
+    "which cuts their corners. Surfaces are closed, also where the image ends, and bend as little "
+    "as\n"
+    "the voxels allow. Hollows of less than 100 voxels are filled, which import.json tells.\n"
     "Examples:\n"
     "  palp import abdomen.nii.gz                                list its labels\n"
     "  palp import abdomen.nii.gz --label 5,2+3 --out organs     two organs, one of two labels\n"

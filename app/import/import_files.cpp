@@ -72,6 +72,7 @@ Json organOf(const ImportedOrgan& organ)
   json["voxels_ml"] = units::toMilliliters(organ.voxelVolume);
   json["taken_ml"] = units::toMilliliters(organ.enclosed);
   json["surface_ml"] = units::toMilliliters(organ.volume);
+  json["notes"] = organ.notes;
   json["shown"] = levelOf(organ.shown);
   if (organ.felt)
   {
@@ -175,7 +176,7 @@ std::vector<ImportedOrgan> importedOrgans(FileOrgans all, const std::vector<std:
       {
         made[i] = importedOrgan(std::move(all.organs[i]), source.file, unit);
         made[i].file = files[i];
-        writeOrgan(folder, made[i], all.space);
+        made[i].shown.mesh ? writeOrgan(folder, made[i], all.space) : void();
         tell(++done);
       }
     }

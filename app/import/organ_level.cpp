@@ -16,6 +16,7 @@
 #include <functional>
 #include <future>
 #include <limits>
+#include <utility>
 #include <vtkPolyData.h>
 
 namespace palp
@@ -180,7 +181,11 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
     .enclosed = std::pow(length, 3) * organ.enclosed,
     .shown = {} };
   addWarnings(organ.surface.notes, result.warnings);
-  organ.surface.notes.clear(); // told once
+  result.notes = std::exchange(organ.surface.notes, {}); // told once
+  if (organ.surface.points.empty())
+  {
+    return result;
+  }
   auto between = std::async(std::launch::async, boundaryOf, std::cref(organ), length);
   const LoadedSurface loaded = madeReady(organ.surface, image, unit);
   const Boundary boundary = between.get();

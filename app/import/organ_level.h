@@ -37,8 +37,9 @@ struct ImportedOrgan
   double voxelVolume = 0.0; ///< of all of them [m^3]
   double enclosed = 0.0;    ///< volume of the pieces that were taken, as the voxels have it [m^3]
   double volume = 0.0;      ///< of the surface [m^3]
-  OrganLevel shown;
+  OrganLevel shown;         ///< no mesh: it has none, which the warnings tell
   std::optional<OrganLevel> felt{};    ///< where fewer points serve as well
+  std::vector<std::string> notes{};    ///< how it was taken from the image
   std::vector<std::string> warnings{}; ///< for people
 };
 

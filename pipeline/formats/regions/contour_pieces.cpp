@@ -14,6 +14,7 @@ namespace
 {
 
 constexpr double kHalfAround = 0.5; // of all directions
+constexpr double kCrumb = 0.075;    // of the least hollow: less than eight voxels of a hundred
 
 // what hangs together
 struct Piece
@@ -65,8 +66,8 @@ void dropFilled(std::span<const Eigen::Vector3d> points, std::span<const Triangl
   }
 }
 
-// keeps the largest that are no hollows; how many
-std::size_t keepLargest(std::vector<Piece>& pieces, std::size_t components)
+// keeps the largest that are no hollows, and besides the first no crumbs; how many
+std::size_t keepLargest(std::vector<Piece>& pieces, std::size_t components, double least)
 {
   std::vector<std::size_t> order(pieces.size());
   std::iota(order.begin(), order.end(), 0);
@@ -74,7 +75,8 @@ std::size_t keepLargest(std::vector<Piece>& pieces, std::size_t components)
   std::size_t kept = 0;
   for (const std::size_t i : order)
   {
-    pieces[i].isKept = pieces[i].volume > 0.0 && kept < components;
+    pieces[i].isKept =
+      pieces[i].volume > 0.0 && kept < components && (kept == 0 || pieces[i].volume >= least);
     kept += pieces[i].isKept ? 1 : 0;
   }
   return kept;
@@ -136,7 +138,7 @@ ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
     return result;
   }
   dropFilled(points, triangles, numbers, leastHollow, pieces);
-  const std::size_t bodies = keepLargest(pieces, components);
+  const std::size_t bodies = keepLargest(pieces, components, kCrumb * leastHollow);
   std::size_t hollows = 0;
   std::size_t filled = 0;
   double filledVolume = 0.0;

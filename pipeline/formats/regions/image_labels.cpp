@@ -27,6 +27,14 @@ std::optional<double> milliliters(const PatientImage& volume)
   return unit.empty() ? std::nullopt : std::optional(std::pow(cm, 3) * voxelVolume(volume));
 }
 
+std::string inThree(double value)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
 std::string shownName(const std::string& name)
 {
   constexpr std::size_t most = 60; // of a damaged one that goes on for ever
@@ -122,7 +130,6 @@ std::string labelsInWords(const std::vector<Label>& labels, const PatientImage& 
 {
   const std::optional<double> voxel = milliliters(volume);
   std::ostringstream text;
-  text.precision(3);
   const std::vector<Label> bodies = bodiesAmong(labels);
   constexpr std::streamoff kLong = 300; // characters of a sentence
   for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -136,7 +143,11 @@ std::string labelsInWords(const std::vector<Label>& labels, const PatientImage& 
     text << (text.tellp() > 0 ? ", " : "") << inDigits(label.shown)
          << (label.segment.name.empty() ? "" : " ") << shownName(label.segment.name) << " ("
          << label.voxels << (label.voxels == 1 ? " voxel" : " voxels");
-    voxel ? text << ", " << *voxel * static_cast<double>(label.voxels) << " ml)" : text << ')';
+    const double size = voxel.value_or(0.0) * static_cast<double>(label.voxels);
+    constexpr double kWholeOnes = 1000.0; // from here on
+    text << (voxel
+        ? ", " + (size < kWholeOnes ? inThree(size) : std::to_string(std::lround(size))) + " ml)"
+        : ")");
   }
   return text.tellp() > 0 ? "its labels are " + text.str()
     : labels.empty()      ? "it has more values than a label map"
@@ -178,7 +189,10 @@ std::vector<Label> chosenLabels(const std::vector<Label>& labels,
   std::vector<Label> chosen;
   for (const std::string& word : asked)
   {
-    const auto isMeant = [&](const Label& one) { return isNamed(one, volume.slope, word); };
+    const auto isExact = [&](const Label& one) { return one.segment.name == word; };
+    const bool isOne = std::ranges::count_if(labels, isExact) == 1; // whatever the case of others
+    const auto isMeant = [&](const Label& one)
+    { return isOne ? isExact(one) : isNamed(one, volume.slope, word); };
     const auto count = std::ranges::count_if(labels, isMeant);
     if (count != 1)
     {

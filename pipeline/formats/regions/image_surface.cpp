@@ -91,6 +91,28 @@ FileOrgan organOf(const LabelGroup& labels, const PatientImage& volume, std::siz
   return organ;
 }
 
+// one that nobody asked for by name does not keep the others from being made
+FileOrgan organOrWhyNot(const LabelGroup& labels, const PatientImage& volume,
+  std::size_t components, bool mayLack, const std::string& name)
+{
+  try
+  {
+    return organOf(labels, volume, components, name);
+  }
+  catch (const Error& error)
+  {
+    if (!mayLack)
+    {
+      throw;
+    }
+    FileOrgan organ = listed(labels, volume);
+    const std::string why = error.what();
+    const std::size_t end = why.find(": ", name.size()); // of what it is about
+    organ.surface.notes.push_back("warning: left out, " + why.substr(end + 2));
+    return organ;
+  }
+}
+
 // those that are asked for, else all that are large enough
 std::vector<LabelGroup> wantedLabels(const PatientImage& volume, const std::vector<Label>& known,
   const ImagePart& part, bool isList, const std::string& name, std::vector<std::string>& notes)
@@ -180,10 +202,11 @@ FileOrgans imageOrgans(const PatientImage& volume, const ImagePart& part, const 
     wantedLabels(volume, known, part, asked.isList, name, all.notes);
   const auto isMade = [&](std::size_t place)
   { return wanted.size() == 1 || !asked.places || std::ranges::count(*asked.places, place) > 0; };
+  const bool mayLack = part.labels.empty() && wanted.size() > 1;
   for (std::size_t i = 0; i < wanted.size(); ++i)
   {
     all.organs.push_back(!asked.isList && isMade(i)
-        ? organOf(wanted[i], volume, part.components, name)
+        ? organOrWhyNot(wanted[i], volume, part.components, mayLack, name)
         : listed(wanted[i], volume));
   }
   return all;

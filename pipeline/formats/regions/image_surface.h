@@ -21,7 +21,8 @@ namespace palp
 /// Each of some labels, all where none is named, as a body of its own; or the one of a level or a
 /// band of values.
 ///
-/// @param asked   of labels; what is one body alone gets its surface with no place named
+/// @param asked   of labels; what is one body alone gets its surface with no place named;
+///                one of several that cannot have one is listed, with a warning
 /// @throws Error  as imageSurface
 [[nodiscard]] FileOrgans imageOrgans(const PatientImage& volume, const ImagePart& part,
   const OrgansAsked& asked, const std::string& name);

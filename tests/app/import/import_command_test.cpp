@@ -305,7 +305,7 @@ TEST_F(ImportCommand, TakesAsManyPiecesAsAreAskedFor)
     const std::string told = import(line + " --out " + out_.string()).err;
     const auto says = [&](const char* what) { return told.find(what) != std::string::npos; };
     EXPECT_EQ(says("the others have 35 % of its volume"), balls == 1); // 485 of 1381 voxels
-    EXPECT_EQ(says("few voxels are smoothed away"), components == std::string_view("all"));
+    EXPECT_FALSE(says("few voxels are smoothed away")) << "the speck is no piece";
     const double volume = read("import.json").at("organs").at(0).at("surface_ml");
     one = balls == 1 ? volume : one;
     const double expected = balls == 1 ? one : one * (1.0 + std::pow(5.0 / 6.0, 3));

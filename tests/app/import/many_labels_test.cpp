@@ -4,6 +4,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 namespace palp
 {
@@ -53,6 +54,70 @@ TEST(ManyLabels, AreMadeAsEachAloneIs)
     ASSERT_EQ(import(image + " --label " + label + " --out " + alone.string()).code, 0);
     const std::string name = "label_" + label + ".vtp";
     EXPECT_EQ(test::readAll(all / name), test::readAll(alone / name)) << label;
+  }
+}
+
+// label 1 is a block, label 2 two bars of 7 and 3 voxels
+TEST(ManyLabels, ThatAreCrumbsAreLeftOutUnlessTheyAreAskedFor)
+{
+  const test::TemporaryFolder folder;
+  const std::filesystem::path image = folder.path() / "crumbs.mha";
+  std::ofstream out(image, std::ios::binary);
+  out << "NDims = 3\nElementSpacing = 5 5 5\nDistanceUnits = mm\nDimSize = 20 20 20\n"
+         "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
+  for (int i = 0; i < 20 * 20 * 20; ++i)
+  {
+    const int x = i % 20;
+    const int y = i / 20 % 20;
+    const int z = i / 400;
+    const bool isBar = z == 17 && ((y == 3 && x < 7) || (y == 9 && x < 3));
+    out << (isBar ? '\2' : x > 4 && x < 15 && y > 4 && y < 15 && z > 2 && z < 12 ? '\1' : '\0');
+  }
+  out.close();
+  const std::filesystem::path made = folder.path() / "made";
+  const test::Finished all = import(image.string() + " --out " + made.string());
+  EXPECT_EQ(all.code, 0) << all.err;
+  EXPECT_NE(all.err.find("label 2: left out, what hangs together of it has less than eight voxels"),
+    std::string::npos)
+    << all.err;
+  EXPECT_TRUE(std::filesystem::exists(made / "label_1.vtp"));
+  EXPECT_FALSE(std::filesystem::exists(made / "label_2.vtp"));
+  const auto organs = nlohmann::json::parse(test::readAll(made / "scene.json"))["organs"];
+  EXPECT_EQ(organs.size(), 1U);
+  const test::Finished asked =
+    import(image.string() + " --label 1,2 --out " + (folder.path() / "asked").string());
+  EXPECT_EQ(asked.code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "asked"));
+}
+
+// as 3D Slicer numbers the segments of each layer anew
+TEST(ManyLabels, AreToldApartByTheCaseOfTheirNames)
+{
+  const test::TemporaryFolder folder;
+  const std::filesystem::path image = folder.path() / "case.seg.nrrd";
+  std::ofstream out(image, std::ios::binary);
+  out << "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 4 4 4\nencoding: raw\n"
+         "space: left-posterior-superior\nspace directions: none (5,0,0) (0,5,0) (0,0,5)\n"
+         "space origin: (0,0,0)\nkinds: list domain domain domain\n"
+         "Segment0_Name:=Liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+         "Segment1_Name:=liver\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n\n";
+  for (int i = 0; i < 64; ++i)
+  {
+    out << (i < 32 ? '\1' : '\0') << (i % 4 < 2 && i / 16 < 3 ? '\1' : '\0');
+  }
+  out.close();
+  for (const auto& [name, voxels, code] :
+    { std::tuple("Liver", 32, 0), { "liver", 24, 0 }, { "LIVER", 0, 2 } })
+  {
+    const std::filesystem::path made = folder.path() / name;
+    const test::Finished finished =
+      import(image.string() + " --unit mm --label " + name + " --out " + made.string());
+    EXPECT_EQ(finished.code, code) << finished.err;
+    if (code == 0)
+    {
+      const auto told = nlohmann::json::parse(test::readAll(made / "import.json"));
+      EXPECT_EQ(told["organs"].at(0)["voxels"], voxels) << name;
+    }
   }
 }
 
