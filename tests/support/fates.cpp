@@ -88,7 +88,7 @@ void expectGoodFates(const Fuzzed& kind, const Fates& fates)
     "named; at most %.2f s, %.3f GB\n",
     kind.file.c_str(), fates.count, fates.read, fates.refused, fates.crashed, fates.known,
     100.0 * fraction, fates.longest, fates.peak);
-  EXPECT_LE(fates.longest, 5.0);
+  EXPECT_LE(fates.longest, kSlower * 5.0);
   if (!kSanitized)
   {
     EXPECT_LE(fates.peak, 1.0);

@@ -8,6 +8,7 @@ constexpr bool kSanitized = true; ///< takes more time and memory than any limit
 #else
 constexpr bool kSanitized = false;
 #endif
+constexpr double kSlower = kSanitized ? 4.0 : 1.0; ///< times what a program takes without [-]
 
 /// Which samples a test of arithmetic takes: all; under a sanitizer, which finds nothing in one
 /// that it does not in another, the first of every few.

@@ -53,7 +53,7 @@ TEST_P(Fuzz, EndsAsASurfaceOrATrueSentence)
 {
   const Fuzzed kind = kindOf(GetParam());
   constexpr std::size_t memory = 832U << 20; // of palp-read for a small file, and this program
-  constexpr double time = 4.0;               // of palp-read for a small file [s]
+  constexpr double time = kSlower * 4.0;     // of palp-read for a small file [s]
 #ifdef PALP_SLOW
   const int count = fuzzCount();
 #else // the sanitizer, which takes four times as long for each, sees the first of all
