@@ -179,15 +179,18 @@ void colorAs(std::vector<FileOrgan>& organs, const std::filesystem::path& names)
   }
 }
 
-ImportSource sourceOf(const ImportOptions& options, const FileOrgans& organs, LengthUnit unit)
+// stamps: those of the image before the organs were read
+ImportSource sourceOf(
+  const ImportOptions& options, const FileStamps& stamps, const FileOrgans& organs, LengthUnit unit)
 {
   ImportSource source{ .file = options.image,
-    .stamps = {},
+    .stamps = stamps,
     .image = describeFile(options.image),
     .names = options.names.filename() };
   source.image.unit = unitName(unit);
   source.image.space = organs.space;
   source.image.part = options.part;
+  checkUnchanged(options.image, stamps); // the hash is of what was read
   return source;
 }
 
@@ -210,9 +213,7 @@ void runImport(const ImportOptions& options)
   std::vector<std::string> warnings;
   colorAs(all.organs, options.names);
   const LengthUnit unit = unitOf(all, options.unit, options.image, warnings);
-  ImportSource source = sourceOf(options, all, unit);
-  source.stamps = stamps;
-  checkUnchanged(options.image, stamps); // the hash is of what was read
+  const ImportSource source = sourceOf(options, stamps, all, unit);
   std::vector<std::string> files;
   nameFiles(all.organs, files, std::filesystem::canonical(options.image).stem().stem().string());
   ProgressLine progress("organs");

@@ -102,18 +102,19 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
     return std::nullopt; // it is felt as it is
   }
   counts.insert(counts.begin(), points.size() * 3 / 4); // to try, before all else is made
-  double most = 0.0;
+  const auto most = [&] { return std::max(voxel, shown.get().apart.largest); };
+  bool isTried = false;
   std::vector<TriangleMesh> finer;
   decimateTo(counts, points, triangles, 0.5 * voxel,
     [&](TriangleMesh felt)
     {
-      if (most > 0.0)
+      if (!isTried)
       {
-        finer.push_back(std::move(felt));
-        return true;
+        isTried = true;
+        return seemsNear(boundary.points, felt, most());
       }
-      most = std::max(voxel, shown.get().apart.largest);
-      return seemsNear(boundary.points, felt, most);
+      finer.push_back(std::move(felt));
+      return true;
     });
   if (finer.empty())
   {
@@ -122,9 +123,9 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   const auto nearEnough = [&](const TriangleMesh& felt)
   {
     const Deviation apart = deviation(
-      felt.points, BoxTree(felt.points, felt.triangles), boundary.points, boundary.tree, most);
-    return apart.largest <= most ? std::optional(levelOf(felt.points, felt.triangles, apart))
-                                 : std::nullopt;
+      felt.points, BoxTree(felt.points, felt.triangles), boundary.points, boundary.tree, most());
+    return apart.largest <= most() ? std::optional(levelOf(felt.points, felt.triangles, apart))
+                                   : std::nullopt;
   };
   std::optional<OrganLevel> found = nearEnough(finer.back());
   if (found || finer.size() < 2 || !(found = nearEnough(finer.front())))

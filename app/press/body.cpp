@@ -10,6 +10,7 @@
 #include "haptics/contact/embed_stiffness.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/sampling/deviation.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
@@ -71,23 +72,13 @@ std::string describe(const Deviation& apart, std::size_t points)
   return note.str();
 }
 
-Eigen::AlignedBox3d boxOf(std::span<const Eigen::Vector3d> points)
-{
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point : points)
-  {
-    box.extend(point);
-  }
-  return box;
-}
-
 // In the scene, of the body in its file's frame. What several say of a place, the first of them
 // does.
 TissueMap placedMap(
   const MeshSource& source, std::span<const Eigen::Vector3d> points, TissueMap before)
 {
   const Eigen::Isometry3d toFile = source.frame().inverse();
-  Eigen::AlignedBox3d box = boxOf(points);
+  Eigen::AlignedBox3d box = boxAbout(points);
   constexpr double kMargin = 0.01; // [m] beside the body, for what lies along its border
   // a formula need not make sense beside the body
   const double margin = source.stiffness.kind == StiffnessSource::Kind::Formula ? 0.0 : kMargin;
@@ -313,7 +304,7 @@ void feelTissue(Scene& scene, const SceneBody& body)
 {
   const ForceLaw& law = scene.law;
   const LawSettings& own = law.settings();
-  law.checkBody(boxOf(body.haptic->points()).sizes().minCoeff());
+  law.checkBody(boxAbout(body.haptic->points()).sizes().minCoeff());
   scene.nodules = nullptr;
   scene.stiffness = nullptr;
   if (body.compliance != nullptr && (!own.coatings.empty() || own.base != Base::Bonded))

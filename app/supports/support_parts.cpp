@@ -6,6 +6,7 @@
 #include "haptics/files/input_text.h"
 #include "haptics/files/number_table.h"
 #include "haptics/files/replace_file.h"
+#include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/closest_point.h"
 #include "haptics/units.h"
 
@@ -27,12 +28,7 @@ double sizeOf(const Surface& surface)
 {
   constexpr double kMost = 3.0_mm;
   constexpr double kAlongBody = 60.0;
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point : surface.points())
-  {
-    box.extend(point);
-  }
-  return std::min(kMost, box.diagonal().norm() / kAlongBody);
+  return std::min(kMost, boxAbout(surface.points()).diagonal().norm() / kAlongBody);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "pipeline/health/inner_walls.h"
 
+#include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/closest_point.h"
 #include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"

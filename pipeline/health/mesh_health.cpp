@@ -1,5 +1,6 @@
 #include "pipeline/health/mesh_health.h"
 
+#include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"
 #include "haptics/threads/followed_work.h"

@@ -1,5 +1,6 @@
 #include "pipeline/health/slivers.h"
 
+#include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/crossing.h"
 
 #include <Eigen/Geometry>
@@ -226,14 +227,6 @@ bool lockCrossing(std::span<const Eigen::Vector3d> points, const HalfEdges& chan
 }
 
 } // namespace
-
-double flatness(
-  const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) noexcept
-{
-  const double longest =
-    std::max({ (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() });
-  return longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0;
-}
 
 RemovedSlivers removeSlivers(std::vector<Eigen::Vector3d>& points, std::vector<Triangle>& triangles)
 {

@@ -8,12 +8,8 @@
 namespace palp
 {
 
-/// A triangle is a sliver where its height over its longest edge is less than this share of it.
+/// A triangle is a sliver where it is flatter (area_and_volume.h) than this.
 constexpr double kSliver = 0.01;
-
-/// Height of a triangle over its longest edge, as a share of that edge [-].
-[[nodiscard]] double flatness(
-  const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) noexcept;
 
 /// Triangles that are no slivers any more, and those that are left since the surface would pass
 /// through itself without them.

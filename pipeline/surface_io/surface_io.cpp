@@ -192,32 +192,27 @@ std::vector<std::string> commandOf(
       ": damaged or cut off: the reader crashed or exceeded its limits; export or copy it again");
 }
 
-FileOrgans organsIn(const std::filesystem::path& file, const std::vector<std::string>& command)
+// what the reader answers, unpacked
+template <typename What>
+What read(const std::filesystem::path& file, const std::vector<std::string>& command,
+  std::optional<What> (*unpacked)(std::string_view))
 {
   const auto answer = answerOf(command);
-  auto organs = answer ? unpackOrgans(*answer) : std::nullopt;
-  organs ? void() : refuseCrash(file);
-  return *std::move(organs);
-}
-
-FileSurface surfaceIn(const std::filesystem::path& file, const std::vector<std::string>& command)
-{
-  const auto answer = answerOf(command);
-  auto surface = answer ? unpack(*answer) : std::nullopt;
-  surface ? void() : refuseCrash(file);
-  return *std::move(surface);
+  std::optional<What> what = answer ? unpacked(*answer) : std::nullopt;
+  what ? void() : refuseCrash(file);
+  return *std::move(what);
 }
 
 } // namespace
 
 FileSurface readFileSurface(const std::filesystem::path& file, const ImagePart& part)
 {
-  return surfaceIn(file, commandOf(file, part));
+  return read(file, commandOf(file, part), unpack);
 }
 
 FileOrgans readFileOrgans(const std::filesystem::path& file, const ImagePart& part, bool isList)
 {
-  return organsIn(file, commandOf(file, part, isList ? "list" : "organs"));
+  return read(file, commandOf(file, part, isList ? "list" : "organs"), unpackOrgans);
 }
 
 FileOrgans readFileOrgansAt(
@@ -228,12 +223,12 @@ FileOrgans readFileOrgansAt(
   {
     command.push_back("place=" + std::to_string(place));
   }
-  return organsIn(file, command);
+  return read(file, command, unpackOrgans);
 }
 
 LoadedSurface readSurface(const std::filesystem::path& file, UnitChoice unit, const ImagePart& part)
 {
-  return madeReady(surfaceIn(file, commandOf(file, part, "joined")), file, unit);
+  return madeReady(read(file, commandOf(file, part, "joined"), unpack), file, unit);
 }
 
 LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& file, UnitChoice unit)

@@ -1,5 +1,6 @@
 #include "haptics/surface/decimation/decimate.h"
 
+#include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/decimation/half_edges.h"
 #include "haptics/surface/decimation/planes.h"
 
@@ -130,6 +131,11 @@ private:
     return best;
   }
 
+  [[nodiscard]] Eigen::Vector3d placeOf(Vertex vertex) const
+  {
+    return Eigen::Vector3d(mesh_.point(vertex).data());
+  }
+
   // infinite where it is more than allowed
   [[nodiscard]] double costOf(HalfEdge edge)
   {
@@ -251,11 +257,8 @@ private:
       const OpenMesh::Vec3d before = areaOf(mesh_.point(from), one, other);
       const OpenMesh::Vec3d after = areaOf(mesh_.point(to), one, other);
       const double size = before.norm();
-      const double left = after.norm();
-      const OpenMesh::Vec3d& place = mesh_.point(to);
-      const double longest =
-        std::max({ (one - place).sqrnorm(), (other - place).sqrnorm(), (one - other).sqrnorm() });
-      if (size > 0.0 && !((before | after) > kMost * size * left && left > kThin * longest))
+      const bool isTurned = !((before | after) > kMost * size * after.norm());
+      if (size > 0.0 && (isTurned || !(flatness(placeOf(to), placeOf(a), placeOf(b)) > kThin)))
       {
         return true;
       }

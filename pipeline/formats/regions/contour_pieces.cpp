@@ -13,8 +13,8 @@ namespace palp
 namespace
 {
 
-constexpr double kHalfAround = 0.5; // of all directions
-constexpr double kCrumb = 0.075;    // of the least hollow: less than eight voxels of a hundred
+constexpr double kHalfAround = 0.5;    // of all directions
+constexpr double kLeastHollow = 100.0; // [voxels]
 
 // what hangs together
 struct Piece
@@ -129,8 +129,9 @@ double volumeOf(const std::vector<Piece>& pieces, bool isLeftOut)
 
 ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
   std::span<const Triangle> triangles, std::span<const int> numbers,
-  std::span<const PieceSize> sizes, std::size_t components, double leastHollow)
+  std::span<const PieceSize> sizes, std::size_t components, double voxel)
 {
+  const double leastHollow = kLeastHollow * voxel;
   ContourPieces result{ .isKept = std::vector<bool>(triangles.size(), true), .note = {} };
   std::vector<Piece> pieces = piecesFrom(triangles, numbers, sizes);
   if (pieces.size() < 2)
@@ -138,7 +139,7 @@ ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
     return result;
   }
   dropFilled(points, triangles, numbers, leastHollow, pieces);
-  const std::size_t bodies = keepLargest(pieces, components, kCrumb * leastHollow);
+  const std::size_t bodies = keepLargest(pieces, components, leastPiece(voxel));
   std::size_t hollows = 0;
   std::size_t filled = 0;
   double filledVolume = 0.0;

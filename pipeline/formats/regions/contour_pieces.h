@@ -19,12 +19,24 @@ struct ContourPieces
   std::string note;         ///< what was left out, for people; empty: it is one piece
 };
 
-/// @param pieces       of each triangle, as piecesOf
-/// @param sizes        of each piece
-/// @param components   how many, the largest first
-/// @param leastHollow  volume below which a hollow is filled [unit^3]
+inline constexpr int kFewestVoxels = 8; ///< that make a body
+
+/// Volume below which a piece has fewer voxels than a body, to their rounding [unit^3].
+/// @param voxel  volume of one [unit^3]
+[[nodiscard]] constexpr double leastPiece(double voxel) noexcept
+{
+  return (kFewestVoxels - 0.5) * voxel;
+}
+
+/// The largest piece, however small, and those besides that have as many voxels as a body; hollows
+/// of less than 100 voxels are filled.
+///
+/// @param pieces      of each triangle, as piecesOf
+/// @param sizes       of each piece
+/// @param components  how many, the largest first
+/// @param voxel       volume of one [unit^3]
 [[nodiscard]] ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
   std::span<const Triangle> triangles, std::span<const int> pieces,
-  std::span<const PieceSize> sizes, std::size_t components, double leastHollow);
+  std::span<const PieceSize> sizes, std::size_t components, double voxel);
 
 } // namespace palp

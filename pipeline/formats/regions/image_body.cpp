@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/surface/area_and_volume.h"
+#include "pipeline/formats/regions/contour_pieces.h"
 #include "pipeline/formats/regions/image_contour.h"
 #include "pipeline/formats/regions/image_grids.h"
 
@@ -117,16 +118,6 @@ FileSurface placed(const PatientImage& volume, ImageContour& contour)
     .notes = {},
     .space = volume.space,
     .field = fieldOf(volume) };
-}
-
-Eigen::AlignedBox3d boxAbout(std::span<const Eigen::Vector3d> points)
-{
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point : points)
-  {
-    box.extend(point);
-  }
-  return box;
 }
 
 } // namespace
@@ -273,8 +264,7 @@ FileOrgan bodyOf(
   const bool isAround = isAboveAround(*region.image, region.level);
   const vtkIdType above = voxelsAbove(*region.image, region.level);
   const vtkIdType voxels = isAround ? region.image->GetNumberOfPoints() - above : above;
-  constexpr vtkIdType kFewest = 8;
-  if (region.mask && voxels < kFewest)
+  if (region.mask && voxels < kFewestVoxels)
   {
     refuseImage(name,
       "what is chosen has " + counted(static_cast<std::size_t>(voxels), "voxel") +
@@ -291,9 +281,8 @@ FileOrgan bodyOf(
   }
   ImageContour contour =
     imageContour(*region.image, region.level, region.mask, components, region.notes);
-  if (const double least =
-        (kFewest - 0.5) * Eigen::Array3d(region.image->GetSpacing()).abs().prod();
-      region.mask && contour.largest < least)
+  if (const double voxel = Eigen::Array3d(region.image->GetSpacing()).abs().prod();
+      region.mask && contour.largest < leastPiece(voxel))
   {
     refuseImage(name,
       "what hangs together of it has less than eight voxels, too few for a surface; give a label "

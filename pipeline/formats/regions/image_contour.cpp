@@ -20,8 +20,6 @@ namespace palp
 namespace
 {
 
-constexpr double kLeastHollow = 100.0; // [voxels]
-
 ImageContour contourOf(vtkImageData& image, double level)
 {
   vtkNew<vtkSynchronizedTemplates3D> templates; // starts no thread, unlike its newer kin
@@ -132,8 +130,8 @@ ImageContour imageContour(vtkImageData& image, double level, bool isMask, std::s
   const Eigen::Array3d spacing = Eigen::Array3d(image.GetSpacing()).abs();
   Linked linked(contour);
   isMask ? countVoxels(image, contour, linked) : void();
-  const ContourPieces pieces = contourPieces(contour.points, contour.triangles, linked.pieces,
-    linked.sizes, components, kLeastHollow * spacing.prod());
+  const ContourPieces pieces = contourPieces(
+    contour.points, contour.triangles, linked.pieces, linked.sizes, components, spacing.prod());
   if (!pieces.note.empty())
   {
     notes.push_back(pieces.note);

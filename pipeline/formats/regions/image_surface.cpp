@@ -2,6 +2,7 @@
 
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/regions/contour_pieces.h"
 #include "pipeline/formats/regions/image_body.h"
 
 #include <algorithm>
@@ -79,12 +80,18 @@ FileOrgan listed(const LabelGroup& labels, const PatientImage& volume)
   return organ;
 }
 
+// which stands before each message about it
+std::string titleOf(const FileOrgan& organ, const std::string& name)
+{
+  return name + ", label " + organ.label;
+}
+
 FileOrgan organOf(const LabelGroup& labels, const PatientImage& volume, std::size_t components,
   const std::string& name)
 {
   const FileOrgan known = listed(labels, volume);
   FileOrgan organ =
-    bodyOf(volume, regionOfLabels(volume, labels), components, name + ", label " + known.label);
+    bodyOf(volume, regionOfLabels(volume, labels), components, titleOf(known, name));
   organ.label = known.label;
   organ.name = known.name;
   organ.color = known.color;
@@ -107,8 +114,8 @@ FileOrgan organOrWhyNot(const LabelGroup& labels, const PatientImage& volume,
     }
     FileOrgan organ = listed(labels, volume);
     const std::string why = error.what();
-    const std::size_t end = why.find(": ", name.size()); // of what it is about
-    organ.surface.notes.push_back("warning: left out, " + why.substr(end + 2));
+    organ.surface.notes.push_back(
+      "warning: left out, " + why.substr(titleOf(organ, name).size() + std::string(": ").size()));
     return organ;
   }
 }
@@ -135,10 +142,9 @@ std::vector<LabelGroup> wantedLabels(const PatientImage& volume, const std::vect
     { return std::ranges::is_permutation(group, other, {}, which, which); };
     std::ranges::none_of(wanted, isGroup) ? wanted.push_back(std::move(group)) : void();
   }
-  constexpr vtkIdType kFewest = 8;
   for (const Label& label : part.labels.empty() ? bodiesAmong(known) : std::vector<Label>())
   {
-    if (label.voxels >= kFewest || isList)
+    if (label.voxels >= kFewestVoxels || isList)
     {
       wanted.push_back({ label });
       continue;

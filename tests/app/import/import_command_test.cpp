@@ -4,6 +4,7 @@
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/app/import/sentences.h"
 #include "tests/support/dicom_series.h"
+#include "tests/support/label_images.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -71,21 +72,10 @@ protected:
     return names;
   }
 
-  // voxels of 5 mm, a byte each, x fastest
   std::filesystem::path write(
     const std::string& name, int side, const std::function<int(int, int, int)>& valueOf)
   {
-    const std::string size = std::to_string(side) + " ";
-    std::string bytes = "NDims = 3\nElementSpacing = 5 5 5\nDistanceUnits = mm\nDimSize = " + size +
-      size + size + "\nElementType = MET_SHORT\nElementDataFile = LOCAL\n";
-    for (int i = 0; i < side * side * side; ++i)
-    {
-      const int value = valueOf(i % side, i / side % side, i / side / side);
-      bytes += static_cast<char>(value & 0xFF);
-      bytes += static_cast<char>(value >> 8 & 0xFF);
-    }
-    std::ofstream(folder_.path() / name, std::ios::binary) << bytes;
-    return folder_.path() / name;
+    return test::writeLabels(folder_.path() / name, side, valueOf);
   }
 
   // a block of label 1 up to the border, a smaller one of 2 and a voxel of 3

@@ -1,7 +1,7 @@
+#include "tests/support/label_images.h"
 #include "tests/support/process.h"
 
 #include <cmath>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -11,22 +11,12 @@ namespace palp
 namespace
 {
 
-// a ball in each of 64 cells of 10 voxels of 5 mm, none as large as another
-std::filesystem::path writeBalls(const std::filesystem::path& file)
+// a ball in each of 64 cells of 10 voxels, none as large as another
+int ballAt(int x, int y, int z)
 {
-  std::ofstream out(file, std::ios::binary);
-  out << "NDims = 3\nElementSpacing = 5 5 5\nDistanceUnits = mm\nDimSize = 40 40 40\n"
-         "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
-  for (int i = 0; i < 40 * 40 * 40; ++i)
-  {
-    const int x = i % 40;
-    const int y = i / 40 % 40;
-    const int z = i / 1600;
-    const int cell = x / 10 + 4 * (y / 10) + 16 * (z / 10);
-    const double off = std::hypot(x % 10 - 4.5, y % 10 - 4.5, z % 10 - 4.5);
-    out << (off < 2.0 + 2.7 * (cell * 7 % 64) / 64.0 ? static_cast<char>(cell + 1) : '\0');
-  }
-  return file;
+  const int cell = x / 10 + 4 * (y / 10) + 16 * (z / 10);
+  const double off = std::hypot(x % 10 - 4.5, y % 10 - 4.5, z % 10 - 4.5);
+  return off < 2.0 + 2.7 * (cell * 7 % 64) / 64.0 ? cell + 1 : 0;
 }
 
 test::Finished import(const std::string& arguments)
@@ -38,7 +28,7 @@ test::Finished import(const std::string& arguments)
 TEST(ManyLabels, AreMadeAsEachAloneIs)
 {
   const test::TemporaryFolder folder;
-  const std::string image = writeBalls(folder.path() / "many.mha").string();
+  const std::string image = test::writeLabels(folder.path() / "many.mha", 40, ballAt).string();
   const std::filesystem::path all = folder.path() / "all";
   const test::Finished finished = import(image + " --out " + all.string());
   ASSERT_EQ(finished.code, 0) << finished.err;
@@ -61,19 +51,12 @@ TEST(ManyLabels, AreMadeAsEachAloneIs)
 TEST(ManyLabels, ThatAreCrumbsAreLeftOutUnlessTheyAreAskedFor)
 {
   const test::TemporaryFolder folder;
-  const std::filesystem::path image = folder.path() / "crumbs.mha";
-  std::ofstream out(image, std::ios::binary);
-  out << "NDims = 3\nElementSpacing = 5 5 5\nDistanceUnits = mm\nDimSize = 20 20 20\n"
-         "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
-  for (int i = 0; i < 20 * 20 * 20; ++i)
-  {
-    const int x = i % 20;
-    const int y = i / 20 % 20;
-    const int z = i / 400;
-    const bool isBar = z == 17 && ((y == 3 && x < 7) || (y == 9 && x < 3));
-    out << (isBar ? '\2' : x > 4 && x < 15 && y > 4 && y < 15 && z > 2 && z < 12 ? '\1' : '\0');
-  }
-  out.close();
+  const auto image = test::writeLabels(folder.path() / "crumbs.mha", 20,
+    [](int x, int y, int z)
+    {
+      const bool isBar = z == 17 && ((y == 3 && x < 7) || (y == 9 && x < 3));
+      return isBar ? 2 : x > 4 && x < 15 && y > 4 && y < 15 && z > 2 && z < 12 ? 1 : 0;
+    });
   const std::filesystem::path made = folder.path() / "made";
   const test::Finished all = import(image.string() + " --out " + made.string());
   EXPECT_EQ(all.code, 0) << all.err;
@@ -90,22 +73,15 @@ TEST(ManyLabels, ThatAreCrumbsAreLeftOutUnlessTheyAreAskedFor)
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "asked"));
 }
 
-// as 3D Slicer numbers the segments of each layer anew
 TEST(ManyLabels, AreToldApartByTheCaseOfTheirNames)
 {
   const test::TemporaryFolder folder;
-  const std::filesystem::path image = folder.path() / "case.seg.nrrd";
-  std::ofstream out(image, std::ios::binary);
-  out << "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 4 4 4\nencoding: raw\n"
-         "space: left-posterior-superior\nspace directions: none (5,0,0) (0,5,0) (0,0,5)\n"
-         "space origin: (0,0,0)\nkinds: list domain domain domain\n"
-         "Segment0_Name:=Liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
-         "Segment1_Name:=liver\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n\n";
-  for (int i = 0; i < 64; ++i)
-  {
-    out << (i < 32 ? '\1' : '\0') << (i % 4 < 2 && i / 16 < 3 ? '\1' : '\0');
-  }
-  out.close();
+  const auto image = test::writeLayers(folder.path() / "case.seg.nrrd", 5,
+    "Segment0_Name:=Liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+    "Segment1_Name:=liver\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n",
+    [](int i) {
+      return std::string{ i < 32 ? '\1' : '\0', i % 4 < 2 && i / 16 < 3 ? '\1' : '\0' };
+    });
   for (const auto& [name, voxels, code] :
     { std::tuple("Liver", 32, 0), { "liver", 24, 0 }, { "LIVER", 0, 2 } })
   {

@@ -4,6 +4,7 @@
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/app/application.h"
 #include "tests/app/panels/label_map.h"
+#include "tests/support/label_images.h"
 #include "tests/support/process.h"
 
 #include <QCheckBox>
@@ -20,14 +21,27 @@ namespace palp
 namespace
 {
 
+// of an image with the labels 2 and 7
+struct Opened
+{
+  // lists them
+  QListWidget* list()
+  {
+    dialog.setLabels(readFileOrgans(file, {}, true));
+    return dialog.findChild<QListWidget*>("labels");
+  }
+
+  QApplication& application = test::application();
+  test::TemporaryFolder folder{};
+  std::filesystem::path file = test::writeLabelMap(folder.path() / "a.mha");
+  OpenDialog dialog{ QString::fromStdString(file.string()) };
+};
+
 TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
 {
-  test::application();
-  const test::TemporaryFolder folder;
-  const std::filesystem::path file = test::writeLabelMap(folder.path() / "a.mha");
-  OpenDialog dialog(QString::fromStdString(file.string()));
-  dialog.setLabels(readFileOrgans(file, {}, true));
-  auto* list = dialog.findChild<QListWidget*>("labels");
+  Opened opened;
+  OpenDialog& dialog = opened.dialog;
+  const QListWidget* list = opened.list();
   ASSERT_NE(list, nullptr);
   ASSERT_EQ(list->count(), 2);
   EXPECT_TRUE(list->item(0)->text().contains("32 ml")) << list->item(0)->text().toStdString();
@@ -47,14 +61,11 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
 // as 3D Slicer writes it; a label that it does not name stays as it is
 TEST(OpenDialog, CallsLabelsAsATableDoes)
 {
-  test::application();
-  const test::TemporaryFolder folder;
-  const std::filesystem::path file = test::writeLabelMap(folder.path() / "a.mha");
-  OpenDialog dialog(QString::fromStdString(file.string()));
-  dialog.setLabels(readFileOrgans(file, {}, true));
-  auto* list = dialog.findChild<QListWidget*>("labels");
+  Opened opened;
+  OpenDialog& dialog = opened.dialog;
+  const QListWidget* list = opened.list();
   list->item(1)->setCheckState(Qt::Checked);
-  const std::filesystem::path table = folder.path() / "names.ctbl";
+  const std::filesystem::path table = opened.folder.path() / "names.ctbl";
   std::ofstream(table) << "7 spleen 10 32 255 255\n9 stomach 1 2 3 255\n";
   dialog.setNames(table);
   EXPECT_TRUE(list->item(1)->text().startsWith("7  spleen  16 voxels"))
@@ -66,7 +77,7 @@ TEST(OpenDialog, CallsLabelsAsATableDoes)
   ASSERT_EQ(organs.size(), 2U);
   EXPECT_EQ(organs[1].name, "spleen");
   EXPECT_EQ(organs[1].color, "#0a20ff");
-  const std::filesystem::path cut = folder.path() / "cut.json";
+  const std::filesystem::path cut = opened.folder.path() / "cut.json";
   std::ofstream(cut) << "{\"7\": ";
   EXPECT_THROW(dialog.setNames(cut), Error);
   EXPECT_TRUE(list->item(1)->text().startsWith("7  spleen"));
@@ -74,10 +85,8 @@ TEST(OpenDialog, CallsLabelsAsATableDoes)
 
 TEST(OpenDialog, TakesWhatHasValuesInARange)
 {
-  test::application();
-  const test::TemporaryFolder folder;
-  const std::filesystem::path file = test::writeLabelMap(folder.path() / "a.mha");
-  OpenDialog dialog(QString::fromStdString(file.string()));
+  Opened opened;
+  OpenDialog& dialog = opened.dialog;
   auto* values = dialog.findChild<QLineEdit*>("values");
   const auto why = [&] { return dialog.findChild<QLabel*>("why")->text().toStdString(); };
   const auto isTaken = [&](const char* text)
@@ -91,7 +100,7 @@ TEST(OpenDialog, TakesWhatHasValuesInARange)
   EXPECT_NE(why().find("'9:1' is empty"), std::string::npos) << why();
   EXPECT_TRUE(isTaken(" 1.5:9 "));
   EXPECT_EQ(dialog.source().part.band, (std::array{ 1.5, 9.0 }));
-  EXPECT_NEAR(readFileSurface(file, dialog.source().part).field, 60.0, 1e-9);
+  EXPECT_NEAR(readFileSurface(opened.file, dialog.source().part).field, 60.0, 1e-9);
   dialog.findChild<QLineEdit*>("level")->setText("2");
   EXPECT_FALSE(isTaken("1.5:9"));
   EXPECT_NE(why().find("more than one is given"), std::string::npos) << why();
@@ -102,19 +111,13 @@ TEST(OpenDialog, AsksByNameForLabelsOfOneValue)
 {
   test::application();
   const test::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "a.seg.nrrd";
-  std::ofstream out(file, std::ios::binary);
-  out << "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 4 4 4\nencoding: raw\n"
-         "space: left-posterior-superior\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n"
-         "space origin: (0,0,0)\nkinds: list domain domain domain\n"
-         "Segment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
-         "Segment1_Name:=vein\nSegment1_LabelValue:=2\nSegment1_Layer:=0\n"
-         "Segment2_Name:=tumor, left\nSegment2_LabelValue:=1\nSegment2_Layer:=1\n\n";
-  for (int i = 0; i < 64; ++i)
-  {
-    out << (i < 32 ? '\1' : '\2') << (i % 4 < 2 ? '\1' : '\0');
-  }
-  out.close();
+  const auto file = test::writeLayers(folder.path() / "a.seg.nrrd", 1,
+    "Segment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+    "Segment1_Name:=vein\nSegment1_LabelValue:=2\nSegment1_Layer:=0\n"
+    "Segment2_Name:=tumor, left\nSegment2_LabelValue:=1\nSegment2_Layer:=1\n",
+    [](int i) {
+      return std::string{ i < 32 ? '\1' : '\2', i % 4 < 2 ? '\1' : '\0' };
+    });
   OpenDialog dialog(QString::fromStdString(file.string()));
   dialog.setLabels(readFileOrgans(file, {}, true));
   auto* list = dialog.findChild<QListWidget*>("labels");
