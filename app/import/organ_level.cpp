@@ -31,6 +31,7 @@ struct Boundary
 {
   std::vector<Eigen::Vector3d> points; // [m]
   BoxTree tree;
+  std::vector<Eigen::Vector3d> farthest; // those of them that smoothing moved the most [m]
 };
 
 // what is known of a surface
@@ -60,9 +61,26 @@ OrganLevel levelOf(std::span<const Eigen::Vector3d> points, std::span<const Tria
     .apart = apart };
 }
 
+// one of sixteen
+std::vector<Eigen::Vector3d> farthestOf(const FileOrgan& organ, double length)
+{
+  std::vector<std::pair<double, std::size_t>> moved(organ.from.size());
+  for (std::size_t i = 0; i < moved.size(); ++i)
+  {
+    moved[i] = { (organ.from[i] - organ.surface.points[i]).squaredNorm(), i };
+  }
+  const std::size_t count = moved.size() / 16;
+  std::ranges::nth_element(
+    moved, moved.begin() + static_cast<std::ptrdiff_t>(count), std::greater());
+  std::vector<Eigen::Vector3d> farthest(count);
+  std::transform(moved.begin(), moved.begin() + static_cast<std::ptrdiff_t>(count),
+    farthest.begin(), [&](const auto& one) { return length * organ.from[one.second]; });
+  return farthest;
+}
+
 Boundary boundaryOf(const FileOrgan& organ, double length)
 {
-  Boundary boundary{ .points = organ.from, .tree = {} };
+  Boundary boundary{ .points = organ.from, .tree = {}, .farthest = farthestOf(organ, length) };
   for (Eigen::Vector3d& point : boundary.points)
   {
     point *= length;
@@ -71,29 +89,21 @@ Boundary boundaryOf(const FileOrgan& organ, double length)
   return boundary;
 }
 
-// by some of the points that it shall be near, for where it is not that shows at most of them
+// by some of the points that it shall be near
 bool seemsNear(std::span<const Eigen::Vector3d> points, const TriangleMesh& mesh, double most)
 {
-  constexpr std::size_t kOneOf = 16;
   const BoxTree tree(mesh.points, mesh.triangles);
-  for (std::size_t i = 0; i < points.size(); i += kOneOf)
-  {
-    if (distanceTo(tree, points[i], 2.0 * most) > most)
-    {
-      return false;
-    }
-  }
-  return true;
+  return std::ranges::all_of(points,
+    [&](const Eigen::Vector3d& point) { return distanceTo(tree, point, 2.0 * most) <= most; });
 }
 
-// Of as few points as stay within what the voxels tell. Where not even most of them do, that is
-// known at once, and not after all that are coarser.
+// Of as few points as stay within what the voxels tell.
 std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   std::span<const Triangle> triangles, double voxel, const std::shared_future<Found>& shown,
   const Boundary& boundary)
 {
   std::vector<std::size_t> counts;
-  for (std::size_t count = kHapticPoints; 2 * count <= points.size(); count *= 2)
+  for (std::size_t count = kHapticPoints; 2 * count < points.size(); count *= 2)
   {
     counts.insert(counts.begin(), count);
   }
@@ -101,45 +111,27 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   {
     return std::nullopt; // it is felt as it is
   }
-  counts.insert(counts.begin(), points.size() * 3 / 4); // to try, before all else is made
+  counts.insert(counts.begin(), points.size() / 2);
   const auto most = [&] { return std::max(voxel, shown.get().apart.largest); };
-  bool isTried = false;
-  std::vector<TriangleMesh> finer;
+  std::vector<TriangleMesh> levels;
   decimateTo(counts, points, triangles, 0.5 * voxel,
     [&](TriangleMesh felt)
     {
-      if (!isTried)
-      {
-        isTried = true;
-        return seemsNear(boundary.points, felt, most());
-      }
-      finer.push_back(std::move(felt));
-      return true;
+      const bool isNear = seemsNear(boundary.farthest, felt, most()); // else no coarser one is
+      isNear ? levels.push_back(std::move(felt)) : void();
+      return isNear;
     });
-  if (finer.empty())
+  for (; !levels.empty(); levels.pop_back())
   {
-    return std::nullopt;
-  }
-  const auto nearEnough = [&](const TriangleMesh& felt)
-  {
+    const TriangleMesh& felt = levels.back();
     const Deviation apart = deviation(
       felt.points, BoxTree(felt.points, felt.triangles), boundary.points, boundary.tree, most());
-    return apart.largest <= most() ? std::optional(levelOf(felt.points, felt.triangles, apart))
-                                   : std::nullopt;
-  };
-  std::optional<OrganLevel> found = nearEnough(finer.back());
-  if (found || finer.size() < 2 || !(found = nearEnough(finer.front())))
-  {
-    return found;
-  }
-  for (std::size_t i = finer.size() - 1; i-- > 1;)
-  {
-    if (std::optional<OrganLevel> level = nearEnough(finer[i]))
+    if (apart.largest <= most())
     {
-      return level;
+      return levelOf(felt.points, felt.triangles, apart);
     }
   }
-  return found;
+  return std::nullopt;
 }
 
 void addWarnings(const std::vector<std::string>& notes, std::vector<std::string>& warnings)
@@ -253,7 +245,7 @@ LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked, const std::filesys
   Eigen::AlignedBox3d box;
   for (const FileOrgan& organ : organs.organs)
   {
-    box.extend(organ.box);
+    box.extend(organ.corners[0]).extend(organ.corners[1]);
   }
   const double size = box.sizes().maxCoeff();
   if (const UnitChoice unit = unitNamed(organs.unit))

@@ -20,8 +20,8 @@ void packOrgan(std::string& bytes, const FileOrgan& organ)
   packSurface(bytes, organ.surface);
   packValues(bytes, organ.from);
   packOne(bytes, organ.voxel);
-  packOne(bytes, organ.box.min());
-  packOne(bytes, organ.box.max());
+  packOne(bytes, organ.corners[0]);
+  packOne(bytes, organ.corners[1]);
 }
 
 bool unpackOrgan(std::string_view& bytes, FileOrgan& organ)
@@ -30,8 +30,8 @@ bool unpackOrgan(std::string_view& bytes, FileOrgan& organ)
     unpackValues(bytes, organ.color) && unpackOne(bytes, organ.voxels) &&
     unpackOne(bytes, organ.voxelVolume) && unpackOne(bytes, organ.enclosed) &&
     unpackSurface(bytes, organ.surface) && unpackValues(bytes, organ.from) &&
-    unpackOne(bytes, organ.voxel) && unpackOne(bytes, organ.box.min()) &&
-    unpackOne(bytes, organ.box.max()) && organ.from.size() == organ.surface.points.size();
+    unpackOne(bytes, organ.voxel) && unpackOne(bytes, organ.corners[0]) &&
+    unpackOne(bytes, organ.corners[1]) && organ.from.size() == organ.surface.points.size();
 }
 
 } // namespace

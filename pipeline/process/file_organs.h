@@ -2,10 +2,12 @@
 
 #include "pipeline/process/file_surface.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 
 namespace palp
 {
@@ -22,8 +24,10 @@ struct FileOrgan
   FileSurface surface;      ///< empty where only a list is asked for
   std::vector<Eigen::Vector3d> from; ///< of its points, where each was before it was smoothed
   double voxel = 0.0;                ///< longest side of one [unit]
-  Eigen::AlignedBox3d box{};         ///< about its surface, or its voxels where there is none
+  /// lowest and highest corner about its surface, or its voxels where there is none [unit]
+  std::array<Eigen::Vector3d, 2> corners{};
 };
+static_assert(std::is_nothrow_move_constructible_v<FileOrgan>); // else vectors copy when they grow
 
 /// Which of the bodies in an image get a surface; the others are only listed.
 struct OrgansAsked

@@ -307,7 +307,8 @@ FileOrgan bodyOf(
   organ.from = std::move(contour.from);
   organ.surface = placed(volume, contour);
   organ.surface.notes = std::move(region.notes);
-  organ.box = boxAbout(organ.surface.points);
+  const Eigen::AlignedBox3d box = boxAbout(organ.surface.points);
+  organ.corners = { box.min(), box.max() };
   return organ;
 }
 

@@ -76,7 +76,8 @@ FileOrgan listed(const LabelGroup& labels, const PatientImage& volume)
   }
   organ.voxelVolume = static_cast<double>(organ.voxels) * voxelVolume(volume);
   organ.surface.field = fieldOf(volume);
-  organ.box = boxInPatient(volume, boxOf(labels));
+  const Eigen::AlignedBox3d box = boxInPatient(volume, boxOf(labels));
+  organ.corners = { box.min(), box.max() };
   return organ;
 }
 
