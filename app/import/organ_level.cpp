@@ -160,6 +160,18 @@ void warnOf(
   }
 }
 
+// with a number behind it where it is taken
+std::string numbered(
+  const std::string& first, const std::function<bool(const std::string&)>& isTaken)
+{
+  std::string name = first;
+  for (int number = 2; isTaken(name); ++number)
+  {
+    name = first + "_" + std::to_string(number);
+  }
+  return name;
+}
+
 } // namespace
 
 ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image, LengthUnit unit)
@@ -219,19 +231,22 @@ void nameFiles(
       : organ.label.empty()          ? other
                                      : "label " + organ.label;
     std::ranges::replace_if(organ.name, isOdd, '_');
+    const auto isNamed = [&](const std::string& name)
+    {
+      return std::ranges::any_of(
+        organs.data(), &organ, [&](const FileOrgan& earlier) { return earlier.name == name; });
+    };
     std::string first = lowered(organ.name);
+    organ.name = numbered(organ.name, isNamed); // in the scene each is named once
     std::ranges::replace_if(first, std::not_fn(isPlain), '_');
     first.insert(0, first.starts_with('.') ? "_" : "");
-    std::string file = first;
-    // their coarser levels are files of their own
-    const auto isTaken = [&](const std::string& earlier)
-    { return earlier == file || earlier + kHaptic == file || file + kHaptic == earlier; };
-    for (int number = 2; std::ranges::any_of(files, isTaken); ++number)
+    const auto isTaken = [&](const std::string& file)
     {
-      file = first + "_" + std::to_string(number);
-    }
-    organ.name += file.substr(first.size()); // in the scene each is named once
-    files.push_back(file);
+      return std::ranges::any_of(files,
+        [&](const std::string& earlier) // their coarser levels are files of their own
+        { return earlier == file || earlier + kHaptic == file || file + kHaptic == earlier; });
+    };
+    files.push_back(numbered(first, isTaken));
   }
 }
 

@@ -267,8 +267,12 @@ void OutputFolder::renameInto(const std::vector<std::string>& gone) const
 
 void OutputFolder::removeStage() noexcept
 {
+  constexpr int kTries = 100; // other threads may still write there, before they fail
   std::error_code ignored;
-  stage_.path.empty() ? 0 : fs::remove_all(stage_.path, ignored);
+  for (int i = 0; i < kTries && !stage_.path.empty() && isThere(stage_.path); ++i)
+  {
+    fs::remove_all(stage_.path, ignored);
+  }
   stage_ = Stage();
 }
 

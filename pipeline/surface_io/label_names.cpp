@@ -239,6 +239,12 @@ void checkOnce(const std::filesystem::path& file, const std::vector<LabelName>& 
 std::vector<NamedColor> tableIn(const std::filesystem::path& file)
 {
   const std::string text = inUtf8(readText(file, "the table of names"));
+  const auto isOdd = [](unsigned char c)
+  { return c < ' ' && c != '\t' && c != '\n' && c != '\r' && c != '\f'; };
+  if (std::ranges::any_of(text, isOdd))
+  {
+    refuse(file, "no text; give a table of 3D Slicer, ITK-SNAP, or JSON");
+  }
   return trimmed(text).starts_with('{') ? namesInJson(file, text) : labelsIn(file, text);
 }
 
@@ -250,6 +256,10 @@ std::vector<LabelName> readLabelNames(const std::filesystem::path& file)
   for (NamedColor& one : tableIn(file))
   {
     names.push_back(std::move(one.label));
+  }
+  if (names.empty())
+  {
+    refuse(file, "it names no label; write a value and its name, like 5 liver 221 130 101 255");
   }
   checkOnce(file, names);
   return names;

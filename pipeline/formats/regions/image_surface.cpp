@@ -3,6 +3,7 @@
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/regions/contour_pieces.h"
+#include "pipeline/formats/regions/held_labels.h"
 #include "pipeline/formats/regions/image_body.h"
 
 #include <algorithm>
@@ -87,12 +88,20 @@ std::string titleOf(const FileOrgan& organ, const std::string& name)
   return name + ", label " + organ.label;
 }
 
-FileOrgan organOf(const LabelGroup& labels, const PatientImage& volume, std::size_t components,
-  const std::string& name)
+ImageRegion regionOf(
+  const LabelGroup& labels, const PatientImage& volume, const std::vector<Label>& all)
+{
+  ImageRegion region = regionOfLabels(volume, labels);
+  const std::string held = heldInWords(labelsHeld(volume, all, labels), labels);
+  held.empty() ? void() : region.notes.push_back("warning: " + held);
+  return region;
+}
+
+FileOrgan organOf(const LabelGroup& labels, const PatientImage& volume,
+  const std::vector<Label>& all, std::size_t components, const std::string& name)
 {
   const FileOrgan known = listed(labels, volume);
-  FileOrgan organ =
-    bodyOf(volume, regionOfLabels(volume, labels), components, titleOf(known, name));
+  FileOrgan organ = bodyOf(volume, regionOf(labels, volume, all), components, titleOf(known, name));
   organ.label = known.label;
   organ.name = known.name;
   organ.color = known.color;
@@ -101,11 +110,11 @@ FileOrgan organOf(const LabelGroup& labels, const PatientImage& volume, std::siz
 
 // one that nobody asked for by name does not keep the others from being made
 FileOrgan organOrWhyNot(const LabelGroup& labels, const PatientImage& volume,
-  std::size_t components, bool mayLack, const std::string& name)
+  const std::vector<Label>& all, std::size_t components, bool mayLack, const std::string& name)
 {
   try
   {
-    return organOf(labels, volume, components, name);
+    return organOf(labels, volume, all, components, name);
   }
   catch (const Error& error)
   {
@@ -172,7 +181,7 @@ FileSurface imageSurface(const PatientImage& volume, const ImagePart& part, cons
   const std::vector<Label> known = isByLabel ? labelsOf(volume, values) : std::vector<Label>();
   checkApart(known, name);
   ImageRegion region = part.band ? regionOfBand(volume, *part.band, name)
-    : isByLabel ? regionOfLabels(volume, chosenLabels(known, part.labels, volume, name))
+    : isByLabel ? regionOf(chosenLabels(known, part.labels, volume, name), volume, known)
                 : levelOf(volume, part, values, name);
   region.notes.insert(region.notes.begin(), volume.notes.begin(), volume.notes.end());
   return bodyOf(volume, std::move(region), part.components, name).surface;
@@ -213,7 +222,7 @@ FileOrgans imageOrgans(const PatientImage& volume, const ImagePart& part, const 
   for (std::size_t i = 0; i < wanted.size(); ++i)
   {
     all.organs.push_back(!asked.isList && isMade(i)
-        ? organOrWhyNot(wanted[i], volume, part.components, mayLack, name)
+        ? organOrWhyNot(wanted[i], volume, known, part.components, mayLack, name)
         : listed(wanted[i], volume));
   }
   return all;

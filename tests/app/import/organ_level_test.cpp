@@ -45,6 +45,22 @@ TEST(NameFiles, GivesNoneTheNameOfTheCoarserLevelOfAnother)
   }
 }
 
+// the files of a disk may not tell them apart, but who reads a list does
+TEST(NameFiles, CallsOrgansAsTheFileDoesWhereThoseDiffer)
+{
+  std::vector<FileOrgan> organs(4);
+  organs[0].name = "Liver";
+  organs[1].name = "liver";
+  organs[2].name = "liver, right";
+  organs[3].name = "liver";
+  std::vector<std::string> files;
+  nameFiles(organs, files, "image");
+  EXPECT_EQ(files, (std::vector<std::string>{ "liver", "liver_2", "liver__right", "liver_3" }));
+  EXPECT_EQ(organs[0].name, "Liver");
+  EXPECT_EQ(organs[1].name, "liver");
+  EXPECT_EQ(organs[3].name, "liver_2");
+}
+
 // a label as thin as a voxel has no smooth surface that is sound
 TEST(ImportedOrgan, TellsOfASurfaceThatPassesThroughItself)
 {

@@ -146,6 +146,50 @@ TEST_F(Images, HollowsGoWithTheBodyAroundThem)
   }
 }
 
+// In a block: a tumor, one that comes out of it by a quarter, and one with a gap around it. Beside
+// it: another block, against one of its sides. Each has its value and what says that it is held.
+TEST_F(Images, LabelsThatABodyHoldsAreTold)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(48, 30, 30);
+  image->AllocateScalars(VTK_SHORT, 1);
+  const auto fill = [&](const Eigen::Array3i& low, const Eigen::Array3i& size, int value)
+  {
+    for (int i = 0; i < size.prod(); ++i)
+    {
+      const Eigen::Array3i to(i % size[0], i / size[0] % size[1], i / size[0] / size[1]);
+      const Eigen::Array3i at = low + to;
+      image->SetScalarComponentFromDouble(at[0], at[1], at[2], 0, value);
+    }
+  };
+  fill({ 2, 2, 2 }, { 24, 26, 26 }, 10);
+  fill({ 6, 6, 6 }, { 8, 4, 4 }, 2);
+  fill({ 18, 6, 18 }, { 8, 6, 6 }, 300); // at the side of the block, and so of its box
+  fill({ 5, 16, 16 }, { 8, 8, 8 }, 0);
+  fill({ 7, 18, 18 }, { 4, 4, 4 }, 7);
+  fill({ 26, 2, 2 }, { 20, 26, 26 }, 4);
+  fill({ 25, 6, 18 }, { 1, 6, 6 }, 10);
+  const auto file = write<vtkMetaImageWriter>("held.mha", *image);
+  const auto told = [&](const std::vector<std::string>& labels)
+  {
+    std::string all;
+    const auto surface = readSurface(file, LengthUnit::Millimeter, { .labels = labels });
+    for (const std::string& note : surface.notes)
+    {
+      all += note.find("left out of it") == note.npos ? "" : note;
+    }
+    return all;
+  };
+  EXPECT_NE(told({ "10" }).find("labels 2, 300 lie in it"), std::string::npos) << told({ "10" });
+  EXPECT_NE(told({ "10" }).find("as 10+2+300 they are one"), std::string::npos) << told({ "10" });
+  EXPECT_NE(told({ "10", "2" }).find("label 300 lies in it"), std::string::npos);
+  EXPECT_EQ(told({ "10", "2", "300" }), "");
+  for (const char* other : { "2", "300", "4", "7" })
+  {
+    EXPECT_EQ(told({ other }), "") << other;
+  }
+}
+
 // which smoothing would leave nothing of, however many there are
 TEST_F(Images, OfSingleVoxelsIsNoBody)
 {

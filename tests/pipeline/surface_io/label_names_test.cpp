@@ -87,8 +87,9 @@ TEST_F(LabelNames, WhatIsNoTableIsRefusedByItsLine)
       { "8 duct 300 0 0 255\n", "names:1: the color '300 0 0 255' is not red, green and blue" },
       { "8 duct 0.8 0.1 0 1\n", "names:1: the color '0.8 0.1 0 1' is not red, green and blue" },
       { "LabelValue,Color_R,Color_G,Color_B,Name\n7,,,,a\n8,1,x,2,b\n", "names:3: the color" },
-      { "{\"1\": [2]}", "'1' is no value with a name" },
-      { "{\"1\": ", "not JSON of values and names" } })
+      { "{\"1\": [2]}", "'1' is no value with a name" }, { "", "it names no label" },
+      { "# of nothing\n", "it names no label" }, { "{}", "it names no label" },
+      { "5 liver\x01\n", "no text" }, { "{\"1\": ", "not JSON of values and names" } })
   {
     try
     {
