@@ -194,6 +194,17 @@ ImportSource sourceOf(
   return source;
 }
 
+std::vector<std::string> surfaceFiles(const std::vector<std::string>& organs)
+{
+  std::vector<std::string> files;
+  for (const std::string& organ : organs)
+  {
+    files.push_back(organ + ".vtp");
+    files.push_back(organ + kHaptic + ".vtp");
+  }
+  return files;
+}
+
 void runImport(const ImportOptions& options)
 {
   if (options.out.empty())
@@ -216,6 +227,7 @@ void runImport(const ImportOptions& options)
   const ImportSource source = sourceOf(options, stamps, all, unit);
   std::vector<std::string> files;
   nameFiles(all.organs, files, std::filesystem::canonical(options.image).stem().stem().string());
+  expectOutput(output, surfaceFiles(files));
   ProgressLine progress("organs");
   progress(0, files.size());
   std::vector<ImportedOrgan> organs = importedOrgans(std::move(all), files, source, unit,

@@ -14,6 +14,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -106,30 +107,26 @@ void OpenDialog::setLabels(FileOrgans found)
     item->setData(Qt::UserRole, QString::fromStdString(csvField(askedFor(organ))));
     item->setCheckState(Qt::Unchecked);
   }
-  connect(list_, &QListWidget::itemChanged, this,
-    [this]
-    {
-      QStringList ticked;
-      for (int i = 0; i < list_->count(); ++i)
-      {
-        if (list_->item(i)->checkState() == Qt::Checked)
-        {
-          ticked << list_->item(i)->data(Qt::UserRole).toString();
-        }
-      }
-      label_->setText(ticked.join(','));
-    });
+  connect(list_, &QListWidget::itemChanged, this, [this] { label_->setText(ticked().join(',')); });
   auto* names = new QPushButton(tr("Names from a table..."));
   names->setObjectName("names");
   names->setAutoDefault(false);
   names->setToolTip(tr("Of 3D Slicer, ITK-SNAP, or JSON as of TotalSegmentator"));
   connect(names, &QPushButton::clicked, this, &OpenDialog::chooseNames);
+  auto* all = new QPushButton(tr("All"));
+  all->setObjectName("allLabels");
+  all->setAutoDefault(false);
+  all->setToolTip(tr("Ticks all labels, or where all are ticked, none"));
+  connect(all, &QPushButton::clicked, this, &OpenDialog::tickAll);
+  auto* under = new QHBoxLayout;
+  under->addWidget(all);
+  under->addWidget(names, 1);
   auto* rows = static_cast<QFormLayout*>(layout());
   int row = 0;
   QFormLayout::ItemRole role{};
   rows->getWidgetPosition(label_, &row, &role);
   rows->insertRow(row + 1, tr("Labels in it"), list_);
-  rows->insertRow(row + 2, {}, names);
+  rows->insertRow(row + 2, {}, under);
   label_->setFocus(); // what is asked for most
   if (listed_.size() > 1)
   {
@@ -139,6 +136,33 @@ void OpenDialog::setLabels(FileOrgans found)
     areOrgans_->setChecked(true);
     rows->insertRow(row + 3, {}, areOrgans_);
   }
+}
+
+QStringList OpenDialog::ticked() const
+{
+  QStringList ticked;
+  for (int i = 0; i < list_->count(); ++i)
+  {
+    if (list_->item(i)->checkState() == Qt::Checked)
+    {
+      ticked << list_->item(i)->data(Qt::UserRole).toString();
+    }
+  }
+  return ticked;
+}
+
+void OpenDialog::tickAll()
+{
+  const Qt::CheckState state = ticked().size() < list_->count() ? Qt::Checked : Qt::Unchecked;
+  {
+    const QSignalBlocker quiet(list_); // one change, not one for each
+    for (int i = 0; i < list_->count(); ++i)
+    {
+      list_->item(i)->setCheckState(state);
+    }
+  }
+  list_->viewport()->update();
+  label_->setText(ticked().join(','));
 }
 
 void OpenDialog::setNames(const std::filesystem::path& table)
@@ -241,6 +265,12 @@ MeshSource OpenDialog::source() const
   part.level = level.empty() ? std::nullopt : std::optional(parseNumber(level, "Level"));
   part.band = band.empty() ? std::nullopt : std::optional(parseBand(band, "Range"));
   part.labels = labels.empty() ? std::vector<std::string>() : parseLabels(labels, "Label");
+  if (labels == "all" && !listed_.empty()) // as of palp import
+  {
+    part.labels.resize(listed_.size());
+    std::ranges::transform(
+      listed_, part.labels.begin(), [this](const FileOrgan& organ) { return askedFor(organ); });
+  }
   return source;
 }
 

@@ -50,6 +50,8 @@ private:
   [[nodiscard]] bool isOnce(const FileOrgan& organ) const;
   [[nodiscard]] std::string askedFor(const FileOrgan& organ) const;
   [[nodiscard]] QString lineOf(const FileOrgan& organ) const;
+  [[nodiscard]] QStringList ticked() const;
+  void tickAll();
   void chooseNames();
 
   std::filesystem::path file_;

@@ -11,9 +11,22 @@
 namespace palp
 {
 
+namespace
+{
+
+void tellReplaced(const std::filesystem::path& folder, const std::string& found)
+{
+  if (!found.empty())
+  {
+    std::cerr << "palp: " << folder.string() << ": will replace " << found << '\n';
+  }
+}
+
+} // namespace
+
 void addOverwrite(CLI::App& command, bool& overwrite)
 {
-  command.add_flag("--overwrite", overwrite, "Replace what an earlier run left in --out");
+  command.add_flag("--overwrite", overwrite, "Replace files that are in --out already");
 }
 
 void keepInputs(const std::filesystem::path& folder, const std::vector<std::string>& own,
@@ -42,12 +55,13 @@ std::unique_ptr<OutputFolder> openOutput(const std::filesystem::path& folder,
   keepInputs(folder, own, inputs);
   auto output = std::make_unique<OutputFolder>(
     folder, std::move(own), overwrite ? Earlier::Replace : Earlier::Refuse);
-  if (!output->found().empty())
-  {
-    std::cerr << "palp: " << folder.string() << ": will replace " << output->found()
-              << " of an earlier run\n";
-  }
+  tellReplaced(folder, output->found());
   return output;
+}
+
+void expectOutput(const OutputFolder& output, const std::vector<std::string>& names)
+{
+  tellReplaced(output.path(), output.expect(names));
 }
 
 Outputs::Outputs()

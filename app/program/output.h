@@ -36,6 +36,11 @@ void keepInputs(const std::filesystem::path& folder, const std::vector<std::stri
   std::vector<std::string> own, bool overwrite,
   const std::vector<std::filesystem::path>& inputs = {});
 
+/// Files that the run may leave besides, whose names are known only by now; says which of them will
+/// be replaced.
+/// @throws Error  as OutputFolder::expect
+void expectOutput(const OutputFolder& output, const std::vector<std::string>& names);
+
 /// The folders that a command writes; while it lives, Ctrl-C, SIGTERM and a terminal that closes
 /// end the program, but leave nothing there that is not published.
 ///

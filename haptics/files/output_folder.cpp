@@ -143,25 +143,9 @@ OutputFolder::OutputFolder(fs::path folder, std::vector<std::string> own, Earlie
   clearHidden(folder_);
   clearStages(folder_);
   clearStages(folder_.parent_path(), folder_.filename());
-  for (const std::string& name : own_)
-  {
-    if (isFolder(folder_ / name))
-    {
-      refuseFile(shown_ / name, EISDIR);
-    }
-    if (isThere(folder_ / name))
-    {
-      found_.append(found_.empty() ? "" : ", ").append(name);
-    }
-  }
   try
   {
-    if (earlier_ == Earlier::Refuse && !found_.empty())
-    {
-      throw Error(ErrorCode::BadFile,
-        shown_.string() + ": holds " + found_ +
-          " of an earlier run; pass --overwrite to replace that, or choose another folder");
-    }
+    found_ = there(own_);
     (void)stage(); // tells before any work whether anything may be written
   }
   catch (...)
@@ -169,6 +153,37 @@ OutputFolder::OutputFolder(fs::path folder, std::vector<std::string> own, Earlie
     discard();
     throw;
   }
+}
+
+std::string OutputFolder::there(const std::vector<std::string>& names) const
+{
+  std::string found;
+  for (const std::string& name : names)
+  {
+    if (isFolder(folder_ / name))
+    {
+      refuseFile(shown_ / name, EISDIR);
+    }
+    if (isThere(folder_ / name))
+    {
+      found.append(found.empty() ? "" : ", ").append(name);
+    }
+  }
+  if (earlier_ == Earlier::Refuse && !found.empty())
+  {
+    throw Error(ErrorCode::BadFile,
+      shown_.string() + ": holds " + found +
+        " already; pass --overwrite to replace that, or choose another folder");
+  }
+  return found;
+}
+
+std::string OutputFolder::expect(const std::vector<std::string>& names) const
+{
+  std::vector<std::string> others = names;
+  std::erase_if(
+    others, [this](const std::string& name) { return std::ranges::binary_search(own_, name); });
+  return there(others);
 }
 
 OutputFolder::~OutputFolder()

@@ -54,6 +54,12 @@ public:
     return found_;
   }
 
+  /// Files that the run may leave besides, whose names are known only by now; they are replaced
+  /// where they are staged.
+  /// @return        those of them that are there and no own ones, as words
+  /// @throws Error  BadFile: Refuse and one of the files is there
+  std::string expect(const std::vector<std::string>& names) const;
+
   /// Where files are written until they are published; empty again after that.
   /// @throws Error  BadFile
   [[nodiscard]] std::filesystem::path stage();
@@ -67,6 +73,7 @@ public:
   void discard() noexcept;
 
 private:
+  [[nodiscard]] std::string there(const std::vector<std::string>& names) const;
   [[nodiscard]] bool exchange(const std::vector<std::string>& gone);
   void renameInto(const std::vector<std::string>& gone) const;
   void removeStage() noexcept;

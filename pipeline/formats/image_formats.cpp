@@ -168,15 +168,12 @@ PatientImage readNifti(const std::filesystem::path& file)
   placeInPatient(file, *reader, result);
   result.slope = reader->GetRescaleSlope();
   result.intercept = reader->GetRescaleIntercept();
-  if (!std::isfinite(result.slope) || !std::isfinite(result.intercept))
-  {
-    refuse(file, "scl_slope or scl_inter is not a number; export it again");
-  }
-  if (result.slope == 0.0) // values as they are stored
+  if (!std::isfinite(result.slope) || result.slope == 0.0) // as they are stored: nifti1_io.c
   {
     result.slope = 1.0;
     result.intercept = 0.0;
   }
+  result.intercept = std::isfinite(result.intercept) ? result.intercept : 0.0;
   if (vtkNIFTIImageHeader* header = reader->GetNIFTIHeader())
   {
     result.unit = niftiUnit(header->GetXYZTUnits());

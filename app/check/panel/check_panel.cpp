@@ -2,6 +2,7 @@
 
 #include "app/check/check_text.h"
 #include "app/check/panel/fault_marks.h"
+#include "app/panels/panel_area.h"
 
 #include <QColor>
 #include <QHBoxLayout>
@@ -9,6 +10,7 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QScrollBar>
 #include <QStyle>
 #include <QTableWidget>
@@ -86,11 +88,15 @@ CheckPanel::CheckPanel(QWidget* parent)
   foot->addWidget(look_);
   foot->addWidget(all_);
   foot->addWidget(repair_);
+  auto* measures = new QScrollArea; // on a low screen a line of them
+  scrollDownOnly(*measures, measures_);
+  measures->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  measures->setMinimumHeight(measures_->fontMetrics().lineSpacing());
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 2, 4, 4);
   layout->setSpacing(4);
   layout->addWidget(verdict_);
-  layout->addWidget(measures_);
+  layout->addWidget(measures);
   layout->addWidget(rows_, 1);
   layout->addLayout(foot);
   connect(rows_, &QTableWidget::itemSelectionChanged, this, &CheckPanel::chosenChanged);

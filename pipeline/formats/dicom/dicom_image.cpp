@@ -88,6 +88,10 @@ void readVoxels(const DicomSlice& slice, std::span<float> values)
   {
     refuse(slice.file, "its voxels cannot be decoded, or are cut off; export or copy it again");
   }
+  if (isDamagedJpeg())
+  {
+    refuse(slice.file, "its JPEG data are damaged; export or copy it again");
+  }
   switch (format.GetScalarType())
   {
     case gdcm::PixelFormat::UINT8:

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <gdcmSequenceOfItems.h>
 #include <gdcmTrace.h>
@@ -21,6 +22,42 @@ namespace
 std::ostringstream& warnings()
 {
   static std::ostringstream kept; // by GDCM, for as long as the program runs
+  return kept;
+}
+
+// The decoder of JPEG tells the error stream alone that data are damaged, and goes on: this takes
+// the place of that.
+class HeardErrors
+{
+public:
+  HeardErrors()
+    : stream_(open_memstream(&text_, &size_))
+  {
+    stderr = stream_ != nullptr ? stream_ : stderr;
+  }
+
+  void forget()
+  {
+    (void)all();
+    known_ = size_;
+  }
+
+  [[nodiscard]] std::string_view all()
+  {
+    stream_ != nullptr ? fflush(stream_) : 0;
+    return stream_ != nullptr ? std::string_view(text_, size_).substr(known_) : std::string_view();
+  }
+
+private:
+  char* text_ = nullptr;
+  std::size_t size_ = 0;
+  std::size_t known_ = 0; // before this file
+  FILE* stream_;
+};
+
+HeardErrors& errors()
+{
+  static HeardErrors kept;
   return kept;
 }
 
@@ -95,6 +132,7 @@ gdcm::DataSet groupOf(const gdcm::DataSet& groups, const gdcm::Tag& tag)
 void listenToGdcm()
 {
   warnings().str("");
+  errors().forget();
   gdcm::Trace::SetDebug(false);
   gdcm::Trace::SetError(false);
   gdcm::Trace::SetWarningStream(warnings());
@@ -104,6 +142,11 @@ void listenToGdcm()
 bool wasFilledUp()
 {
   return warnings().str().find("own risk") != std::string::npos;
+}
+
+bool isDamagedJpeg()
+{
+  return errors().all().find("Corrupt JPEG data") != std::string_view::npos;
 }
 
 bool readWhole(gdcm::Reader& reader, const std::filesystem::path& file)

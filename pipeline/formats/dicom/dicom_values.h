@@ -51,6 +51,9 @@ void listenToGdcm();
 /// Whether GDCM has since filled up what a file was cut off of.
 [[nodiscard]] bool wasFilledUp();
 
+/// Whether its decoder has since found that JPEG data are damaged, and gone on.
+[[nodiscard]] bool isDamagedJpeg();
+
 /// Reads a file, without what GDCM says of it.
 /// @return  false also where it is filled up
 [[nodiscard]] bool readWhole(gdcm::Reader& reader, const std::filesystem::path& file);

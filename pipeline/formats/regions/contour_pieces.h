@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/formats/regions/least_bending.h"
+#include "pipeline/formats/regions/piece_volumes.h"
 
 #include <Eigen/Core>
 #include <cstddef>

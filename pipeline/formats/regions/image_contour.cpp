@@ -4,6 +4,7 @@
 #include "pipeline/formats/regions/contour_pieces.h"
 #include "pipeline/formats/regions/image_grids.h"
 #include "pipeline/formats/regions/least_bending.h"
+#include "pipeline/formats/regions/piece_volumes.h"
 #include "pipeline/model/poly_data.h"
 
 #include <Eigen/Geometry>
@@ -150,8 +151,10 @@ ImageContour imageContour(vtkImageData& image, double level, bool isMask, std::s
   }
   if (isMask)
   {
-    bendLeast(
-      contour.points, contour.triangles, linked.edges, 0.5 * spacing, linked.pieces, linked.sizes);
+    const Neighbors neighbors(contour.points.size(), linked.edges);
+    bendLeast(contour.points, neighbors, 0.5 * spacing);
+    restoreVolumes(contour.points, contour.from, contour.triangles, neighbors, 0.5 * spacing,
+      linked.pieces, linked.sizes);
   }
   else
   {

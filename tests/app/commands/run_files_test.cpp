@@ -72,7 +72,7 @@ TEST_F(RunCommand, ReplacesWhatIsThereOnlyWhenAsked)
   const std::string before = test::readAll(file);
   const Finished refused = press("--no-picture --young 5kPa", "out");
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("of an earlier run; pass --overwrite"), std::string::npos);
+  EXPECT_NE(refused.err.find("already; pass --overwrite"), std::string::npos);
   EXPECT_EQ(refused.err.find("deepest"), std::string::npos) << "after the press";
   EXPECT_EQ(test::readAll(file), before);
   std::ofstream(folder_.path() / "out/section.svg") << "of the run before";

@@ -334,6 +334,17 @@ TEST_F(ImportCommand, ReplacesAnEarlierImportAsAWhole)
   EXPECT_EQ(import(line + " --label 2").code, 2);
   ASSERT_EQ(import(line + " --label 2 --overwrite").code, 0);
   EXPECT_EQ(files(), (std::vector<std::string>{ "import.json", "label_2.vtp", "scene.json" }));
+  // and what somebody else called like one of its organs
+  std::ofstream(out_ / "label_1.vtp") << "mine";
+  std::ofstream(out_ / "label_2_haptic.vtp") << "mine, too";
+  const test::Finished told = import(line + " --label 1,2 --overwrite");
+  EXPECT_NE(told.err.find("will replace label_1.vtp, label_2_haptic.vtp"), std::string::npos);
+  EXPECT_EQ(test::readAll(out_ / "label_2_haptic.vtp"), "mine, too") << "there is no new one";
+  std::filesystem::remove(out_ / "import.json");
+  std::filesystem::remove(out_ / "scene.json");
+  const test::Finished refused = import(line + " --label 1");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("label_1.vtp already; pass --overwrite"), std::string::npos);
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QPushButton>
 
 #include <fstream>
 #include <gtest/gtest.h>
@@ -59,6 +60,26 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
 }
 
 // as 3D Slicer writes it; a label that it does not name stays as it is
+// as palp import takes all of them
+TEST(OpenDialog, TakesAllLabels)
+{
+  Opened opened;
+  OpenDialog& dialog = opened.dialog;
+  const QListWidget* list = opened.list();
+  auto* label = dialog.findChild<QLineEdit*>("label");
+  auto* all = dialog.findChild<QPushButton*>("allLabels");
+  list->item(1)->setCheckState(Qt::Checked);
+  all->click();
+  EXPECT_EQ(label->text(), "2,7");
+  EXPECT_EQ(list->item(0)->checkState(), Qt::Checked);
+  all->click();
+  EXPECT_EQ(label->text(), "");
+  EXPECT_EQ(list->item(1)->checkState(), Qt::Unchecked);
+  label->setText("all");
+  EXPECT_EQ(dialog.source().part.labels, (std::vector<std::string>{ "2", "7" }));
+  EXPECT_EQ(dialog.organs().size(), 2U);
+}
+
 TEST(OpenDialog, CallsLabelsAsATableDoes)
 {
   Opened opened;

@@ -15,6 +15,20 @@ class Check : public CheckTest
 {
 };
 
+// whatever the docks beside it want
+TEST_F(Check, FitsALowScreen)
+{
+  openBroken({ .crossing = true });
+  for (const QSize screen : { QSize(1024, 768), QSize(1280, 720) })
+  {
+    const QSize size = screen - QSize(16, 48);
+    window_->resize(size);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return window_->size() == size; }, kPatience))
+      << window_->height();
+    EXPECT_GT(table()->viewport()->visibleRegion().boundingRect().height(), 20) << size.height();
+  }
+}
+
 TEST_F(Check, TellsWhatTheCommandLineTells)
 {
   openBroken({ .crossing = true });

@@ -154,6 +154,13 @@ TEST_F(Dicom, WhatIsNoVolumeIsRefusedByName)
       EXPECT_NE(refusal(name).find("cut off"), std::string::npos) << part << refusal(name);
     }
   }
+  writeDicom(folder_.path(), "damaged", kAxial, "dcmcjpeg +e1");
+  const std::filesystem::path damaged = folder_.path() / "damaged/damaged1_10.dcm";
+  std::string bytes = test::readAll(damaged);
+  bytes.replace(bytes.size() - 300, 2, "\xff\xd9"); // the end of an image
+  std::ofstream(damaged, std::ios::binary) << bytes;
+  EXPECT_NE(refusal("damaged").find("1_10.dcm: its JPEG data are damaged"), std::string::npos)
+    << refusal("damaged");
   write("ball.obj", "v 0 0 0\n");
   EXPECT_NE(
     refusal("ball.obj", { .series = "1" }).find("no folder of DICOM images; leave the series out"),

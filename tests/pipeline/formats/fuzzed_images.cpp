@@ -183,7 +183,6 @@ std::vector<Fuzzed> otherImages()
     overwritten("size", 42, 2, 3, bytesOf(std::int16_t{ 999 }), kCount),
     overwritten("negative size", 42, 2, 3, bytesOf(std::int16_t{ -5 }), kCount),
     overwritten("type", 70, 2, 1, bytesOf(std::int16_t{ 999 }), "datatype"),
-    overwritten("slope", 112, 4, 1, bytesOf(kNan), "scl_slope"),
     overwritten("magic", 344, 4, 1, "abcd", "NIfTI"), foreign(offText(), "NIfTI") };
   Fuzzed packed = image("ball.nii.gz", { nifti }, ofNifti);
   packed.pack = zipped;
