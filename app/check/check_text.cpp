@@ -169,6 +169,8 @@ std::string doneIn(const RepairedMesh& repaired)
   add(repaired.splitLeft, "point", "points", " left where parts meet, as these would cross");
   add(repaired.sliversLeft, "sliver", "slivers", " left, as the surface would cross itself");
   add(repaired.holesLeft, "hole", "holes", " left, as what closes them would cross the surface");
+  add(repaired.holesUnfit, "hole", "holes",
+    " left, of more than 500 edges, or which no triangles fit but such as the surface has");
   return line;
 }
 

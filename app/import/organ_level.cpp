@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <future>
 #include <limits>
@@ -89,8 +90,8 @@ Boundary boundaryOf(const FileOrgan& organ, double length)
   return boundary;
 }
 
-// by some of the points that it shall be near
-bool seemsNear(std::span<const Eigen::Vector3d> points, const TriangleMesh& mesh, double most)
+// by points that it shall be near
+bool isNearTo(std::span<const Eigen::Vector3d> points, const TriangleMesh& mesh, double most)
 {
   const BoxTree tree(mesh.points, mesh.triangles);
   return std::ranges::all_of(points,
@@ -113,15 +114,24 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   }
   counts.insert(counts.begin(), points.size() / 2);
   const auto most = [&] { return std::max(voxel, shown.get().apart.largest); };
-  std::vector<TriangleMesh> levels;
+  std::deque<TriangleMesh> levels;
+  std::shared_future<bool> finest; // whether all points are near it; else no coarser one is
   decimateTo(counts, points, triangles, 0.5 * voxel,
     [&](TriangleMesh felt)
     {
-      const bool isNear = seemsNear(boundary.farthest, felt, most()); // else no coarser one is
-      isNear ? levels.push_back(std::move(felt)) : void();
-      return isNear;
+      if (finest.valid() && (!finest.get() || !isNearTo(boundary.farthest, felt, most())))
+      {
+        return false;
+      }
+      levels.push_back(std::move(felt));
+      if (!finest.valid()) // it is told while the next one is made
+      {
+        finest = std::async(std::launch::async,
+          [&, &first = levels.front()] { return isNearTo(boundary.points, first, most()); });
+      }
+      return true;
     });
-  for (; !levels.empty(); levels.pop_back())
+  for (; !levels.empty() && finest.get(); levels.pop_back())
   {
     const TriangleMesh& felt = levels.back();
     const Deviation apart = deviation(

@@ -31,8 +31,7 @@ std::vector<int> chainOf(std::span<const Triangle> triangles, const std::vector<
   return chain;
 }
 
-// The edges within a filling, each once. None of them may be there already: the filling would lie
-// on the surface, or not be a manifold with it.
+// the edges within a filling, each once
 std::vector<std::array<int, 2>> innerEdges(
   const std::vector<Triangle>& filling, const std::vector<int>& chain)
 {
@@ -90,21 +89,27 @@ double lengthAround(std::span<const Eigen::Vector3d> points, std::span<const int
   return length;
 }
 
-std::vector<Triangle> smallestFilling(
-  std::span<const Eigen::Vector3d> points, std::span<const int> chain)
+std::vector<Triangle> smallestFilling(std::span<const Eigen::Vector3d> points,
+  std::span<const int> chain, const std::set<std::array<int, 2>>& known)
 {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
   const std::size_t n = chain.size();
   // of the part of the chain from i to j, closed by the line between them
   std::vector<double> least(n * n, 0.0);
   std::vector<std::size_t> apex(n * n, 0);
+  const auto isKnown = [&](std::size_t i, std::size_t j)
+  {
+    const auto [low, high] = std::minmax(chain[i], chain[j]);
+    return j - i + 1 < n && (low == high || known.contains({ low, high }));
+  };
   const auto position = [&](std::size_t i) -> const Eigen::Vector3d&
   { return points[at(chain[i])]; };
   for (std::size_t length = 2; length < n; ++length)
   {
     for (std::size_t i = 0, j = length; j < n; ++i, ++j)
     {
-      least[i * n + j] = std::numeric_limits<double>::infinity();
-      for (std::size_t k = i + 1; k < j; ++k)
+      least[i * n + j] = kNone;
+      for (std::size_t k = i + 1; k < j && !isKnown(i, j); ++k)
       {
         const double area = (position(k) - position(i)).cross(position(j) - position(i)).norm();
         if (const double sum = least[i * n + k] + area + least[k * n + j]; sum < least[i * n + j])
@@ -116,7 +121,8 @@ std::vector<Triangle> smallestFilling(
     }
   }
   std::vector<Triangle> result;
-  std::vector<std::pair<std::size_t, std::size_t>> parts{ { 0, n - 1 } };
+  std::vector<std::pair<std::size_t, std::size_t>> parts;
+  least[n - 1] < kNone ? parts.push_back({ 0, n - 1 }) : void();
   while (!parts.empty())
   {
     const auto [i, j] = parts.back();
@@ -136,25 +142,29 @@ FilledHoles fillHoles(
 {
   const Edges edges = edgesOf(points.size(), triangles);
   const std::vector<std::vector<Side>> holes = borders(points, triangles, edges);
+  // with one of these a filling would lie on the surface, or not be a manifold with it
   std::set<std::array<int, 2>> known(edges.all.begin(), edges.all.end());
   std::vector<std::vector<Triangle>> fillings;
+  std::size_t unfit = 0;
   for (const std::vector<Side>& border : holes)
   {
     const std::vector<int> chain = chainOf(triangles, border);
     const bool isTriangle = std::ranges::all_of(
       border, [&](const Side& side) { return side.triangle == border.front().triangle; });
-    if (isTriangle || chain.size() > kMostEdges || !isClosed(triangles, border) ||
-      lengthAround(points, chain) > longest)
+    if (isTriangle || !isClosed(triangles, border) || lengthAround(points, chain) > longest)
     {
       continue;
     }
-    std::vector<Triangle> filling = smallestFilling(points, chain);
-    const std::vector<std::array<int, 2>> inner = innerEdges(filling, chain);
-    if (std::ranges::none_of(inner, [&](const auto& edge) { return known.contains(edge); }))
+    std::vector<Triangle> filling =
+      chain.size() > kMostEdges ? std::vector<Triangle>() : smallestFilling(points, chain, known);
+    if (filling.empty())
     {
-      known.insert(inner.begin(), inner.end());
-      fillings.push_back(std::move(filling));
+      ++unfit;
+      continue;
     }
+    const std::vector<std::array<int, 2>> inner = innerEdges(filling, chain);
+    known.insert(inner.begin(), inner.end());
+    fillings.push_back(std::move(filling));
   }
   const std::size_t all = fillings.size();
   dropCrossing(points, triangles, fillings);
@@ -162,7 +172,7 @@ FilledHoles fillHoles(
   {
     triangles.insert(triangles.end(), filling.begin(), filling.end());
   }
-  return { fillings.size(), all - fillings.size() };
+  return { fillings.size(), all - fillings.size(), unfit };
 }
 
 } // namespace palp

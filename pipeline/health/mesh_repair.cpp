@@ -114,7 +114,7 @@ RepairedMesh repairedOnce(
     return result; // by which more may meet: until all does, no hole is one, and nothing is parted
   }
   // first, for holes that meet at a point would be one where it is split
-  const auto [filled, holesLeft] = fillHoles(result.points, result.triangles, largestHole);
+  const auto [filled, crossing, unfit] = fillHoles(result.points, result.triangles, largestHole);
   const auto [split, splitLeft] = splitNonManifold(result.points, result.triangles);
   const auto [slivers, sliversLeft] = removeSlivers(result.points, result.triangles);
   result.split = split;
@@ -122,7 +122,8 @@ RepairedMesh repairedOnce(
   result.slivers = slivers;
   result.sliversLeft = sliversLeft;
   result.filled = filled;
-  result.holesLeft = holesLeft;
+  result.holesLeft = crossing;
+  result.holesUnfit = unfit;
   turnAlike(result, facingOf(result)); // what is closed now
   if (splitLeft > 0)                   // in files they are one
   {

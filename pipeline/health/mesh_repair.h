@@ -26,6 +26,7 @@ struct RepairedMesh
                                ///< passing through each other
   std::size_t sliversLeft = 0; ///< without which the surface would pass through itself
   std::size_t holesLeft = 0;   ///< that cannot be closed without passing through it
+  std::size_t holesUnfit = 0;  ///< of more than 500 edges, or that no other triangles fit
 };
 
 /// Again and again, until nothing is left to do: merges points, welds seams, cuts triangles at

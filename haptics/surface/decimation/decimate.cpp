@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <future>
 #include <utility>
 
 namespace palp
@@ -97,9 +96,13 @@ private:
     std::vector<Choice> choices;
     choices.reserve(left_);
     std::erase_if(vertices_, [&](Vertex vertex) { return mesh_.status(vertex).deleted(); });
-    askAll();
     for (const Vertex vertex : vertices_)
     {
+      if (Known& here = known(vertex); !here.isAsked)
+      {
+        here.isAsked = true;
+        here.best = bestOf(vertex);
+      }
       const Choice& best = known(vertex).best;
       best.edge.is_valid() ? choices.push_back(best) : void();
     }
@@ -115,26 +118,6 @@ private:
       left_ > count ? take(choice.edge) : void();
     }
     return before - left_;
-  }
-
-  // each for itself
-  void askAll()
-  {
-    const auto ask = [this](std::span<const Vertex> some)
-    {
-      for (const Vertex vertex : some)
-      {
-        if (Known& here = known(vertex); !here.isAsked)
-        {
-          here.isAsked = true;
-          here.best = bestOf(vertex);
-        }
-      }
-    };
-    const std::span<const Vertex> all = vertices_;
-    const auto others = std::async(std::launch::async, ask, all.first(all.size() / 2));
-    ask(all.subspan(all.size() / 2));
-    others.wait();
   }
 
   Choice bestOf(Vertex vertex)

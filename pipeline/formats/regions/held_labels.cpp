@@ -21,8 +21,8 @@ bool isWithin(const VoxelBox& inner, const VoxelBox& outer)
   return within;
 }
 
-// Whether most sides of a label's voxels that no other of its own meets, meet a body. Where the
-// image ends they meet nothing.
+// Whether most sides of a label's voxels that no other of its own meets, meet a body: in some rows
+// of a large one. Where the image ends they meet nothing.
 bool isHeld(vtkImageData& image, const Label& label, std::span<const Label> body)
 {
   const int* size = image.GetDimensions();
@@ -45,9 +45,12 @@ bool isHeld(vtkImageData& image, const Label& label, std::span<const Label> body
           meet += isInside && isOfBody(static_cast<double>(voxels[beside])) ? 1 : -1;
         }
       };
-      for (std::array<int, 3> at{ 0, 0, low[2] }; at[2] <= high[2]; ++at[2])
+      constexpr int kRows = 64; // at least, where there are as many
+      const int step[] = { std::max(1, (high[1] - low[1]) / kRows),
+        std::max(1, (high[2] - low[2]) / kRows) };
+      for (std::array<int, 3> at{ 0, 0, low[2] }; at[2] <= high[2]; at[2] += step[1])
       {
-        for (at[1] = low[1]; at[1] <= high[1]; ++at[1])
+        for (at[1] = low[1]; at[1] <= high[1]; at[1] += step[0])
         {
           for (at[0] = low[0]; at[0] <= high[0]; ++at[0])
           {

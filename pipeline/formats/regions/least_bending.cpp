@@ -12,7 +12,7 @@ namespace
 using Points = std::vector<Eigen::Array4f>;
 
 // the mean of the neighbors less the point itself
-Eigen::Array4f laplacian(const Neighbors& neighbors, const Points& points, std::size_t i)
+inline Eigen::Array4f laplacian(const Neighbors& neighbors, const Points& points, std::size_t i)
 {
   const std::span<const int> around = neighbors.of(i);
   Eigen::Array4f sum = Eigen::Array4f::Zero();

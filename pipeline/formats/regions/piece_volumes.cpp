@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -41,70 +42,65 @@ void swell(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> trian
   }
 }
 
-// of a point: volume that it lost, and area
+// of each point: volume that it lost, and area
 using Shares = std::vector<Eigen::Array2f>;
 
-// One step of a random walk from each point to those next to it, or to itself, so that it has no
-// waves of two edges. The sums stay.
-void walk(const Neighbors& neighbors, const Shares& now, Shares& parts, Shares& next)
-{
-  constexpr float kStay = 0.25F;
-  for (std::size_t i = 0; i < now.size(); ++i)
-  {
-    parts[i] = (1.0F - kStay) / static_cast<float>(neighbors.of(i).size()) * now[i];
-  }
-  for (std::size_t i = 0; i < now.size(); ++i)
-  {
-    next[i] = kStay * now[i];
-    for (const int neighbor : neighbors.of(i))
-    {
-      next[i] += parts[at(neighbor)];
-    }
-  }
-}
-
-// over the neighborhood: waves shorter than some twenty edges, as of terraces, are gone
-Shares spread(const Neighbors& neighbors, Shares before)
+// Over the neighborhood, by a random walk that stays where it is now and then, so that it has no
+// waves of two edges. The sums are the same; waves shorter than some twenty edges, as of terraces,
+// are gone.
+Shares spread(const Neighbors& neighbors, Shares now)
 {
   constexpr int kSteps = 24;
-  constexpr float kSlow = 0.98F; // what each step of a walk leaves of the waves that stay
-  Shares parts(before.size());
-  Shares now(before.size());
-  Shares next(before.size());
-  walk(neighbors, before, parts, now);
-  float pace = 2.0F;
-  for (int step = 1; step < kSteps; ++step)
+  constexpr float kSlow = 0.98F; // what a step of the walk leaves of the waves that stay
+  constexpr float kStay = 0.25F;
+  std::vector<float> part(now.size()); // that goes to each neighbor
+  for (std::size_t i = 0; i < now.size(); ++i)
   {
-    pace = 1.0F / (1.0F - 0.25F * kSlow * kSlow * pace);
-    walk(neighbors, now, parts, next);
-    for (std::size_t i = 0; i < next.size(); ++i)
+    part[i] = (1.0F - kStay) / static_cast<float>(neighbors.of(i).size());
+  }
+  Shares before = now;
+  Shares sent(now.size());
+  float pace = 1.0F;
+  for (int step = 0; step < kSteps; ++step)
+  {
+    for (std::size_t i = 0; i < now.size(); ++i)
     {
-      next[i] = pace * (next[i] - before[i]) + before[i];
+      sent[i] = part[i] * now[i];
+    }
+    for (std::size_t i = 0; i < now.size(); ++i)
+    {
+      Eigen::Array2f sum = kStay * now[i];
+      for (const int neighbor : neighbors.of(i))
+      {
+        sum += sent[at(neighbor)];
+      }
+      before[i] += pace * (sum - before[i]); // which is the next
     }
     before.swap(now);
-    now.swap(next);
+    pace = 1.0F / (1.0F - (step == 0 ? 0.5F : 0.25F * pace) * kSlow * kSlow);
   }
   return now;
 }
 
-// what the triangles at each point lost as they moved, and their area: a third of each
+// What the triangles at each point lost as they moved, and their area: a third of each. Simpson's
+// rule is exact for the volume that a triangle sweeps.
 Shares lost(std::span<const Eigen::Vector3d> from, std::span<const Eigen::Vector3d> now,
   std::span<const Triangle> triangles)
 {
   Shares shares(now.size(), Eigen::Array2f::Zero());
   for (const auto& [a, b, c] : triangles)
   {
-    const auto areaAt = [&](double part)
+    const auto areaAt = [&, corners = std::array{ at(a), at(b), at(c) }](double part)
     {
-      const auto point = [&](int i) -> Eigen::Vector3d
-      { return from[at(i)] + part * (now[at(i)] - from[at(i)]); };
-      return areaOf(point(a), point(b), point(c));
+      const auto point = [&](std::size_t i) -> Eigen::Vector3d
+      { return from[i] + part * (now[i] - from[i]); };
+      return areaOf(point(corners[0]), point(corners[1]), point(corners[2]));
     };
     const Eigen::Vector3d moved =
       now[at(a)] - from[at(a)] + now[at(b)] - from[at(b)] + now[at(c)] - from[at(c)];
     const Eigen::Vector3d end = areaAt(1.0);
-    const double swept = moved.dot(areaAt(0.0) + 4.0 * areaAt(0.5) + end) / 18.0; // Simpson
-    const Eigen::Array2f third = Eigen::Array2d(-swept / 3.0, end.norm() / 3.0).cast<float>();
+    const double swept = moved.dot(areaAt(0.0) + 4.0 * areaAt(0.5) + end) / 18.0;
+    const Eigen::Array2f third = (Eigen::Array2d(-swept, end.norm()) / 3.0).cast<float>();
     for (const int corner : { a, b, c })
     {
       shares[at(corner)] += third;
@@ -164,7 +160,7 @@ void restoreVolumes(std::vector<Eigen::Vector3d>& points, std::span<const Eigen:
         points[i].array().max(from[i].array() - most).min(from[i].array() + most).matrix();
     }
   };
-  constexpr int kLocally = 3;
+  constexpr int kLocally = 2;
   for (int i = 0; i < kLocally; ++i)
   {
     swellLocally(points, from, triangles, neighbors);

@@ -28,7 +28,7 @@ struct PieceSize
 /// @param pieces  of each triangle, as piecesOf
 /// @param sizes   what volume each is to have then, by as little as there is room for [unit^3]
 /// @source        what is taken: the volumes that triangles sweep; its spread: the Chebyshev
-///                semi-iteration (Golub and Varga, Numer. Math. 3, 1961) of a random walk
+///                semi-iteration (Golub and Varga, Numerische Mathematik 3, 1961) of a random walk
 void restoreVolumes(std::vector<Eigen::Vector3d>& points, std::span<const Eigen::Vector3d> from,
   std::span<const Triangle> triangles, const Neighbors& neighbors, const Eigen::Array3d& most,
   std::span<const int> pieces, std::span<const PieceSize> sizes);

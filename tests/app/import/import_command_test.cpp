@@ -340,8 +340,7 @@ TEST_F(ImportCommand, ReplacesAnEarlierImportAsAWhole)
   const test::Finished told = import(line + " --label 1,2 --overwrite");
   EXPECT_NE(told.err.find("will replace label_1.vtp, label_2_haptic.vtp"), std::string::npos);
   EXPECT_EQ(test::readAll(out_ / "label_2_haptic.vtp"), "mine, too") << "there is no new one";
-  std::filesystem::remove(out_ / "import.json");
-  std::filesystem::remove(out_ / "scene.json");
+  std::filesystem::remove(out_ / "import.json"), std::filesystem::remove(out_ / "scene.json");
   const test::Finished refused = import(line + " --label 1");
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("label_1.vtp already; pass --overwrite"), std::string::npos);

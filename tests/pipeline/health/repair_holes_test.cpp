@@ -1,9 +1,13 @@
 // Holes that meet, and what lies in them, on them or beside them: the body is whole afterwards, and
 // nothing else is left.
 
+#include "pipeline/health/fill_holes.h"
 #include "tests/pipeline/health/faulty_meshes.h"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <vector>
 
 namespace palp::test
@@ -209,6 +213,98 @@ TEST(MeshRepair, KeepsALooseTriangle)
   }
   mesh.triangles.push_back({ n, n + 1, n + 2 });
   EXPECT_EQ(repairedOf(mesh).triangles.size(), mesh.triangles.size());
+}
+
+// of any simple polygon in a plane every triangulation has the area that the shoelace formula gives
+TEST(MeshRepair, FillsAStarByItsArea)
+{
+  std::vector<Vector3d> points;
+  std::vector<int> chain;
+  const Eigen::Matrix3d tilt =
+    Eigen::AngleAxisd(0.7, Vector3d(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+  double twice = 0.0;
+  Eigen::Vector2d last = Eigen::Vector2d::Zero();
+  constexpr int corners = 17;
+  for (int i = 0; i <= 2 * corners; ++i)
+  {
+    const double angle = std::numbers::pi * i / corners;
+    const double r = i % 2 == 0 ? 1.0 : 0.35;
+    const Eigen::Vector2d x(r * std::cos(angle), r * std::sin(angle));
+    twice += i > 0 ? last.x() * x.y() - last.y() * x.x() : 0.0;
+    last = x;
+    if (i < 2 * corners)
+    {
+      points.emplace_back(tilt * Vector3d(x.x(), x.y(), 0.0));
+      chain.push_back(i);
+    }
+  }
+  const std::vector<Triangle> filling = smallestFilling(points, chain);
+  EXPECT_EQ(filling.size(), chain.size() - 2);
+  double area = 0.0;
+  for (const auto& [a, b, c] : filling)
+  {
+    area += 0.5 * (points[at(b)] - points[at(a)]).cross(points[at(c)] - points[at(a)]).norm();
+  }
+  EXPECT_NEAR(area, 0.5 * twice, 1e-12);
+}
+
+// the caps of a ball that is cut by planes; the lids are flat
+TEST(MeshRepair, ClosesHolesUpToALength)
+{
+  constexpr double radius = 0.03;
+  Mesh ball = makeSphere(radius, 4);
+  std::erase_if(ball.triangles,
+    [&](const Triangle& t)
+    {
+      const auto highest = [&](auto coordinate)
+      {
+        return std::max({ coordinate(ball.points[at(t[0])]), coordinate(ball.points[at(t[1])]),
+          coordinate(ball.points[at(t[2])]) });
+      };
+      return highest([](const Vector3d& x) { return x.z(); }) > 0.9 * radius ||
+        highest([](const Vector3d& x) { return -x.x(); }) > 0.6 * radius;
+    });
+  const double small = 2.0 * std::numbers::pi * radius * std::sqrt(1.0 - 0.9 * 0.9);
+  const double wide = 2.0 * std::numbers::pi * radius * 0.8;
+  EXPECT_EQ(repairedOf(ball, 0.5 * small).filled, 0U);
+  EXPECT_EQ(repairedOf(ball, 0.5 * (small + wide)).filled, 1U);
+  const RepairedMesh whole = repairedOf(ball, 2.0 * wide);
+  EXPECT_EQ(whole.filled, 2U);
+  EXPECT_TRUE(palp::healthOf(whole.points, whole.triangles).findings.empty());
+  const auto cap = [](double share) // of a unit ball beyond a plane, height h: pi h^2 (3 - h) / 3
+  { return std::numbers::pi * (1.0 - share) * (1.0 - share) * (2.0 + share) / 3.0; };
+  const double expected =
+    (4.0 / 3.0 * std::numbers::pi - cap(0.88) - cap(0.57)) * std::pow(radius, 3);
+  EXPECT_NEAR(volumeOf(whole.points, whole.triangles), expected, 0.03 * expected);
+}
+
+// as a scan ends below: two sides of a triangle that stays may follow one another around the hole,
+// whose third side must not be made again
+TEST(MeshRepair, ClosesJaggedCuts)
+{
+  constexpr double radius = 0.03;
+  for (const int level : { 3, 4, 5 })
+  {
+    const Mesh whole = makeSphere(radius, level);
+    for (const double share : { -0.66, -0.33, -0.17, 0.0, 0.17, 0.33, 0.5, 0.66 })
+    {
+      Mesh cut = whole;
+      std::erase_if(cut.triangles,
+        [&](const Triangle& t)
+        {
+          const Vector3d sum = cut.points[at(t[0])] + cut.points[at(t[1])] + cut.points[at(t[2])];
+          return sum.z() / 3.0 >= share * radius;
+        });
+      const RepairedMesh closed = repairedOf(cut, 1.0);
+      EXPECT_EQ(closed.filled, 1U) << level << ' ' << share;
+      EXPECT_EQ(closed.holesUnfit, 0U);
+      const double part = (2.0 + share) * (1.0 - share) * (1.0 - share) / 4.0; // that is cut off
+      const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3);
+      EXPECT_NEAR(volumeOf(closed.points, closed.triangles) / ball, 1.0 - part,
+        2.5 * std::pow(0.5, level)) // an edge
+        << level << ' ' << share;
+    }
+  }
 }
 
 } // namespace
