@@ -13,6 +13,7 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QStyle>
+#include <QTimer>
 #include <QToolBar>
 #include <QUrl>
 #include <vtkVersion.h>
@@ -66,7 +67,8 @@ void Window::dropEvent(QDropEvent* event)
     return;
   }
   event->acceptProposedAction();
-  openFiles(files);
+  // when the drop is over: the program that the files are from waits for that, and not for answers
+  QTimer::singleShot(0, this, [this, files] { openFiles(files); });
 }
 
 // listed when it is looked at, as another window may have opened more

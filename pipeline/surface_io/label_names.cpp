@@ -20,7 +20,23 @@ namespace palp
 namespace
 {
 
-constexpr std::string_view kValueColumn = "LabelValue";
+constexpr std::array<std::string_view, 5> kValueColumns{ "labelvalue", "index", "label", "value",
+  "id" };
+
+// of the names; as many as there are columns: none
+std::size_t nameColumn(const std::vector<std::string>& columns)
+{
+  const auto isOfNames = [](const std::string& column)
+  { return lowered(column).ends_with("name"); };
+  return static_cast<std::size_t>(std::ranges::find_if(columns, isOfNames) - columns.begin());
+}
+
+// of a table whose first line names its columns, the first that of the values
+bool hasColumns(const std::vector<std::string>& first)
+{
+  return !first.empty() && std::ranges::count(kValueColumns, lowered(first.front())) > 0 &&
+    nameColumn(first) < first.size();
+}
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what)
 {
@@ -136,15 +152,14 @@ std::optional<NamedColor> labelIn(std::string_view line, const std::string& wher
     color.empty() ? std::string() : colorOf(color, where) };
 }
 
-// of the newer color tables of 3D Slicer, whose first line names their columns
+// of the newer color tables of 3D Slicer, or a list of classes as of TotalSegmentator
 std::vector<NamedColor> labelsInColumns(
   const std::filesystem::path& file, const std::vector<std::string_view>& lines)
 {
   const std::vector<std::string> names = csvFields(trimmed(lines.front()));
   const auto column = [&](std::string_view name)
   { return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()); };
-  const std::size_t value = column(kValueColumn);
-  const std::size_t name = column("Name");
+  const std::size_t name = nameColumn(names);
   std::vector<NamedColor> labels;
   for (std::size_t i = 1; i < lines.size(); ++i)
   {
@@ -154,12 +169,12 @@ std::vector<NamedColor> labelsInColumns(
     {
       continue;
     }
-    const std::optional<double> number = csvNumber(fieldOf(value));
+    const std::optional<double> number = csvNumber(fieldOf(0));
     if (!number)
     {
       throw Error(ErrorCode::BadFile,
-        where(file, static_cast<int>(i) + 1) + inQuotes(fieldOf(value)) +
-          " is no value of a label; write a number below " + std::string(kValueColumn));
+        where(file, static_cast<int>(i) + 1) + inQuotes(fieldOf(0)) +
+          " is no value of a label; write a number below " + names.front());
     }
     const std::string color = fieldOf(column("Color_R")) + ' ' + fieldOf(column("Color_G")) + ' ' +
       fieldOf(column("Color_B"));
@@ -173,13 +188,14 @@ std::vector<NamedColor> labelsInColumns(
 // of a table in lines
 std::vector<NamedColor> labelsIn(const std::filesystem::path& file, const std::string& text)
 {
-  if (text.starts_with(kValueColumn))
+  const std::vector<std::string_view> lines = split(text, '\n');
+  if (hasColumns(csvFields(trimmed(lines.front()))))
   {
-    return labelsInColumns(file, split(text, '\n'));
+    return labelsInColumns(file, lines);
   }
   std::vector<NamedColor> labels;
   int number = 0;
-  for (const std::string_view row : split(text, '\n'))
+  for (const std::string_view row : lines)
   {
     ++number;
     const std::string_view line = trimmed(row);

@@ -62,6 +62,7 @@ protected:
     EXPECT_EQ(enter.isAccepted(), !urls.isEmpty());
     QDropEvent event({ 400, 300 }, Qt::CopyAction, &dragged, Qt::LeftButton, {});
     QApplication::sendEvent(window_.get(), &event);
+    QApplication::processEvents(); // it opens what was dropped after that
   }
   void openAnew()
   {

@@ -28,6 +28,8 @@ TEST_F(LabelNames, AreReadAsProgramsWriteThem)
       "LabelValue,Name,Color_R,Color_G,Color_B,Color_A,Category_CodingScheme\n"
       "0,Background,0,0,0,0,SCT\r\n1,Liver,221,130,101,255,SCT\n\n5,,1,2,3\n"
       "40,\"portal vein\",0,151,206,255,SCT\n",
+      "Index,TotalSegmentator name,TA2 Latin name\n0,Background,\n1,Liver,hepar\n"
+      "40,portal vein,vena portae hepatis\n",
       R"({"0": "Background", "1": "Liver", "40": "portal vein"})",
       R"({"Background": 0, "Liver": 1, "portal vein": 40})",
       R"({"name": "x", "labels": {"Background": 0, "Liver": 1, "portal vein": 40}})" })
