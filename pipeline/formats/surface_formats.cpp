@@ -226,8 +226,11 @@ auto withoutVtkErrors(const std::filesystem::path& file, const Format& format, R
   }
   catch (const VtkError& error)
   {
+    const bool isTooLarge = error.text.find("nable to allocate") != std::string::npos;
     refuse(file,
-      std::string("cannot be read as ") + format.name + " (" + error.text + "); export it again");
+      isTooLarge ? "its header counts more than there is memory for; export it again"
+                 : std::string("cannot be read as ") + format.name + " (" + error.text +
+          "); export it again");
   }
 }
 

@@ -116,6 +116,12 @@ TEST_F(BadImages, ThatClaimTooMuchOrReachOutside)
 {
   expectRefusal(
     "huge.mha", metaHeader({ { "DimSize", "20000 20000 5000" } }) + voxels(), "cut off");
+  expectRefusal("huge.vti",
+    "<VTKFile type=\"ImageData\" version=\"1.0\"><ImageData WholeExtent=\"0 5999999 0 49 0 39\" "
+    "Origin=\"0 0 0\" Spacing=\"1 1 1\"><Piece Extent=\"0 5999999 0 49 0 39\">"
+    "<PointData Scalars=\"s\"><DataArray type=\"UInt8\" Name=\"s\" format=\"ascii\">1 2 3"
+    "</DataArray></PointData></Piece></ImageData></VTKFile>",
+    "counts more than there is memory for");
   expectRefusal("components.mha",
     metaHeader({ { "ElementNumberOfChannels", "1000000000" } }) + voxels(), "several values");
   expectRefusal("far.mha", metaHeader({ { "Offset", "1e300 0 0" } }) + voxels(),
