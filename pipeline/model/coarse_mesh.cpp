@@ -23,6 +23,7 @@ vtkSmartPointer<vtkPolyData> coarseMesh(vtkPolyData& fine, int triangles)
   clusters->SetDivisionOrigin(fine.GetBounds()[0], fine.GetBounds()[2], fine.GetBounds()[4]);
   clusters->SetDivisionSpacing(side, side, side);
   clusters->CopyCellDataOff();
+  clusters->PreventDuplicateCellsOff(); // two that fold onto one another are as none; one is a hole
   clusters->Update();
   return makePolyData(pointsOf(*clusters->GetOutput()), trianglesOf(*clusters->GetOutput()));
 }

@@ -4,9 +4,12 @@
 #include "haptics/surface/area_and_volume.h"
 #include "pipeline/model/poly_data.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <numbers>
+#include <utility>
 #include <vtkPolyData.h>
 
 namespace palp
@@ -31,6 +34,17 @@ TEST(CoarseMesh, OfABallHasAboutAsManyTrianglesOnIt)
     {
       ASSERT_NEAR(point.norm(), kRadius, bow) << wanted;
     }
+    std::map<std::pair<int, int>, int> sides; // how much more often one way than the other
+    for (const Triangle& triangle : trianglesOf(*coarse))
+    {
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const auto [a, b] = std::pair(triangle[i], triangle[(i + 1) % 3]);
+        sides[std::minmax(a, b)] += a < b ? 1 : -1;
+      }
+    }
+    EXPECT_EQ(std::ranges::count_if(sides, [](const auto& one) { return one.second != 0; }), 0)
+      << "a hole shows what is behind: " << wanted;
     const double whole = 4.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3);
     EXPECT_NEAR(enclosedVolume(pointsOf(*coarse), trianglesOf(*coarse)), whole,
       4.0 * std::numbers::pi * kRadius * kRadius * bow);
