@@ -115,23 +115,24 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   counts.insert(counts.begin(), points.size() / 2);
   const auto most = [&] { return std::max(voxel, shown.get().apart.largest); };
   std::deque<TriangleMesh> levels;
-  std::shared_future<bool> finest; // whether all points are near it; else no coarser one is
+  std::future<bool> isNear; // the last of them; else no coarser one is
   decimateTo(counts, points, triangles, 0.5 * voxel,
     [&](TriangleMesh felt)
     {
-      if (finest.valid() && (!finest.get() || !isNearTo(boundary.farthest, felt, most())))
+      if (isNear.valid() && !isNear.get())
       {
+        levels.pop_back();
         return false;
       }
+      const std::vector<Eigen::Vector3d>& asked =
+        levels.empty() ? boundary.points : boundary.farthest;
       levels.push_back(std::move(felt));
-      if (!finest.valid()) // it is told while the next one is made
-      {
-        finest = std::async(std::launch::async,
-          [&, &first = levels.front()] { return isNearTo(boundary.points, first, most()); });
-      }
+      isNear = std::async(std::launch::async, // while the next one is made
+        [&, &last = levels.back()] { return isNearTo(asked, last, most()); });
       return true;
     });
-  for (; !levels.empty() && finest.get(); levels.pop_back())
+  isNear.valid() && !isNear.get() ? levels.pop_back() : void();
+  for (; !levels.empty(); levels.pop_back())
   {
     const TriangleMesh& felt = levels.back();
     const Deviation apart = deviation(
