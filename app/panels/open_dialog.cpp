@@ -4,6 +4,7 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/units.h"
+#include "pipeline/process/dicom_mark.h"
 #include "pipeline/surface_io/label_names.h"
 #include "pipeline/surface_io/surface_io.h"
 
@@ -35,7 +36,8 @@ const char* const kImageFiles = "*.mha *.mhd *.nii *.nii.gz *.nrrd *.nhdr *.vti 
 bool isImageFile(const QString& file)
 {
   return QFileInfo(file).isDir() ||
-    QDir::match(QString(kImageFiles).split(' '), QFileInfo(file).fileName());
+    QDir::match(QString(kImageFiles).split(' '), QFileInfo(file).fileName()) ||
+    hasDicomMark(file.toStdString());
 }
 
 OpenDialog::OpenDialog(const QString& file, QWidget* parent)

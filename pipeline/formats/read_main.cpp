@@ -3,6 +3,7 @@
 #include "haptics/files/input_text.h"
 #include "haptics/files/prefix.h"
 #include "pipeline/formats/read_program.h"
+#include "pipeline/process/dicom_mark.h"
 
 #include <unistd.h>
 
@@ -13,7 +14,7 @@ bool isDicom(const std::filesystem::path& file)
 {
   std::error_code none;
   return std::filesystem::is_directory(file, none) ||
-    palp::lowered(file.extension().string()) == ".dcm";
+    palp::lowered(file.extension().string()) == ".dcm" || palp::hasDicomMark(file);
 }
 
 } // namespace

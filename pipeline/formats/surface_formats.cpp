@@ -15,6 +15,7 @@
 #include "pipeline/formats/vti_image.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/model/poly_data.h"
+#include "pipeline/process/dicom_mark.h"
 
 #include <algorithm>
 #include <array>
@@ -111,6 +112,10 @@ const Format& formatOf(const std::filesystem::path& file)
     {
       return format;
     }
+  }
+  if (hasDicomMark(file))
+  {
+    return kFormats.back();
   }
   refuseOther(file, name);
 }

@@ -109,6 +109,17 @@ TEST_F(DicomSegments, AreNamedInTheirCharacterSet)
   EXPECT_EQ(found.organs[0].name, "Печень");
 }
 
+// as archives store them
+TEST_F(DicomSegments, WhoseFileHasNoEndingAreRead)
+{
+  const std::filesystem::path file = writeSegmentation(folder_.path(), "BINARY", 0.0, {});
+  for (const char* name : { "IM0001", "1.2.840.10008.5" })
+  {
+    std::filesystem::copy(file, folder_.path() / name);
+    EXPECT_EQ(readFileOrgans(folder_.path() / name, {}, true).organs.size(), 2U) << name;
+  }
+}
+
 TEST_F(DicomSegments, WithoutANameAreNamedByTheirNumber)
 {
   const FileOrgans found =
