@@ -58,7 +58,7 @@ public:
   /// where they are staged.
   /// @return        those of them that are there and no own ones, as words
   /// @throws Error  BadFile: Refuse and one of the files is there
-  std::string expect(const std::vector<std::string>& names) const;
+  [[nodiscard]] std::string expect(const std::vector<std::string>& names) const;
 
   /// Where files are written until they are published; empty again after that.
   /// @throws Error  BadFile
