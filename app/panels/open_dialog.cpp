@@ -31,6 +31,16 @@
 namespace palp
 {
 
+namespace
+{
+
+bool hasSurface(const FileOrgan& organ)
+{
+  return organ.voxels >= kFewestVoxels;
+}
+
+} // namespace
+
 const char* const kImageFiles = "*.mha *.mhd *.nii *.nii.gz *.nrrd *.nhdr *.vti *.dcm";
 
 bool isImageFile(const QString& file)
@@ -118,7 +128,7 @@ void OpenDialog::setLabels(FileOrgans found)
   auto* all = new QPushButton(tr("All"));
   all->setObjectName("allLabels");
   all->setAutoDefault(false);
-  all->setToolTip(tr("Ticks all labels, or where all are ticked, none"));
+  all->setToolTip(tr("Ticks all labels of eight voxels or more, or where all are ticked, none"));
   connect(all, &QPushButton::clicked, this, &OpenDialog::tickAll);
   auto* under = new QHBoxLayout;
   under->addWidget(all);
@@ -153,14 +163,18 @@ QStringList OpenDialog::ticked() const
   return ticked;
 }
 
+// those that have a surface
 void OpenDialog::tickAll()
 {
-  const Qt::CheckState state = ticked().size() < list_->count() ? Qt::Checked : Qt::Unchecked;
+  const auto all = std::ranges::count_if(listed_, hasSurface);
+  const Qt::CheckState state = ticked().size() < all ? Qt::Checked : Qt::Unchecked;
   {
     const QSignalBlocker quiet(list_); // one change, not one for each
     for (int i = 0; i < list_->count(); ++i)
     {
-      list_->item(i)->setCheckState(state);
+      const bool isMeant =
+        state == Qt::Unchecked || hasSurface(listed_[static_cast<std::size_t>(i)]);
+      list_->item(i)->setCheckState(isMeant ? state : Qt::Unchecked);
     }
   }
   list_->viewport()->update();
@@ -269,9 +283,11 @@ MeshSource OpenDialog::source() const
   part.labels = labels.empty() ? std::vector<std::string>() : parseLabels(labels, "Label");
   if (labels == "all" && !listed_.empty()) // as of palp import
   {
-    part.labels.resize(listed_.size());
-    std::ranges::transform(
-      listed_, part.labels.begin(), [this](const FileOrgan& organ) { return askedFor(organ); });
+    part.labels.clear();
+    for (const FileOrgan& organ : listed_)
+    {
+      hasSurface(organ) ? part.labels.push_back(askedFor(organ)) : void();
+    }
   }
   return source;
 }

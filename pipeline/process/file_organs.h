@@ -12,6 +12,8 @@
 namespace palp
 {
 
+inline constexpr int kFewestVoxels = 8; ///< that make a body
+
 /// One of the bodies in an image.
 struct FileOrgan
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/formats/regions/piece_volumes.h"
+#include "pipeline/process/file_organs.h"
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -18,8 +19,6 @@ struct ContourPieces
   bool areAll = true;       ///< it is
   std::string note;         ///< what was left out, for people; empty: it is one piece
 };
-
-inline constexpr int kFewestVoxels = 8; ///< that make a body
 
 /// Volume below which a piece has fewer voxels than a body, to their rounding [unit^3].
 /// @param voxel  volume of one [unit^3]

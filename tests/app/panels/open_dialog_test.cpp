@@ -80,6 +80,24 @@ TEST(OpenDialog, TakesAllLabels)
   EXPECT_EQ(dialog.organs().size(), 2U);
 }
 
+// which have no surface, and would keep the others from being opened
+TEST(OpenDialog, LeavesLabelsOfFewVoxelsOutOfAll)
+{
+  Opened opened;
+  OpenDialog& dialog = opened.dialog;
+  FileOrgans found = readFileOrgans(opened.file, {}, true);
+  found.organs[0].voxels = 7;
+  dialog.setLabels(std::move(found));
+  auto* label = dialog.findChild<QLineEdit*>("label");
+  auto* all = dialog.findChild<QPushButton*>("allLabels");
+  all->click();
+  EXPECT_EQ(label->text(), "7");
+  all->click();
+  EXPECT_EQ(label->text(), "");
+  label->setText("all");
+  EXPECT_EQ(dialog.source().part.labels, std::vector<std::string>{ "7" });
+}
+
 TEST(OpenDialog, CallsLabelsAsATableDoes)
 {
   Opened opened;

@@ -66,8 +66,8 @@ TEST(DeviceMapping, TurnsTheToolNoFasterThanAHand)
 {
   Arm arm;
   const auto device = placed(arm);
+  auto last = std::chrono::steady_clock::now(); // before the device looks at its own clock
   Vector3d before = exchangeUntilHeard(*device, arm).axis;
-  auto last = std::chrono::steady_clock::now();
   arm.says.orientation = AngleAxisd(150.0_deg, Vector3d::UnitX());
   const Vector3d told = arm.says.orientation * -Vector3d::UnitZ();
   int steps = 0;
