@@ -109,7 +109,8 @@ std::vector<Triangle> smallestFilling(std::span<const Eigen::Vector3d> points,
     for (std::size_t i = 0, j = length; j < n; ++i, ++j)
     {
       least[i * n + j] = kNone;
-      for (std::size_t k = i + 1; k < j && !isKnown(i, j); ++k)
+      const std::size_t end = isKnown(i, j) ? i : j;
+      for (std::size_t k = i + 1; k < end; ++k)
       {
         const double area = (position(k) - position(i)).cross(position(j) - position(i)).norm();
         if (const double sum = least[i * n + k] + area + least[k * n + j]; sum < least[i * n + j])
