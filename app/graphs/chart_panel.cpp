@@ -46,7 +46,7 @@ ChartPanel::ChartPanel(const QString& name, QWidget* parent)
   canvas_->setAccessibleName(tr("Chart"));
   composeAlone(*canvas_);
   canvas_->setRenderWindow(window_);
-  canvas_->setMinimumSize(260, 100);
+  canvas_->setMinimumSize(260, 120);
   canvas_->setToolTip(tr("Wheel: zoom, beside an axis that axis alone\nDrag: move    "
                          "Right-drag: zoom into a rectangle\nDouble click: follow the data again\n"
                          "Click at a name: hide its curve or show it"));

@@ -83,6 +83,7 @@ CheckPanel::CheckPanel(QWidget* parent)
   rows_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   rows_->installEventFilter(this);
   rows_->viewport()->installEventFilter(this);
+  rows_->setMinimumHeight(2 * rows_->verticalHeader()->defaultSectionSize()); // on a low screen
   auto* foot = new QHBoxLayout;
   foot->addWidget(legend_, 1);
   foot->addWidget(look_);
@@ -93,8 +94,8 @@ CheckPanel::CheckPanel(QWidget* parent)
   measures->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   measures->setMinimumHeight(measures_->fontMetrics().lineSpacing());
   auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(4, 2, 4, 4);
-  layout->setSpacing(4);
+  layout->setContentsMargins(4, 0, 4, 2);
+  layout->setSpacing(2);
   layout->addWidget(verdict_);
   layout->addWidget(measures);
   layout->addWidget(rows_, 1);
