@@ -112,8 +112,7 @@ private:
     const auto end = choices.begin() + static_cast<std::ptrdiff_t>(some);
     std::ranges::nth_element(choices, end, {}, order);
     choices.resize(some);
-    constexpr std::size_t kMany =
-      4096; // taken as they lie in memory, which is several times faster
+    constexpr std::size_t kMany = 4096; // taken as they lie in memory, in a twentieth less time
     some > kMany ? std::ranges::sort(choices, {}, [](const Choice& one) { return one.edge.idx(); })
                  : std::ranges::sort(choices, {}, order);
     for (const Choice& choice : choices)
