@@ -14,7 +14,6 @@
 #include <numeric>
 #include <semaphore>
 #include <thread>
-#include <vtkPolyData.h>
 
 namespace palp
 {
@@ -80,18 +79,6 @@ Json organOf(const ImportedOrgan& organ)
     json["haptic"] = levelOf(*organ.felt);
   }
   return json;
-}
-
-// NAME.vtp, and NAME_haptic.vtp where there is a coarser level; those are then forgotten
-void writeOrgan(const std::filesystem::path& folder, ImportedOrgan& organ, const std::string& space)
-{
-  writeSurface(folder / (organ.file + ".vtp"), *organ.shown.mesh, space);
-  organ.shown.mesh = nullptr;
-  if (organ.felt)
-  {
-    writeSurface(folder / (organ.file + kHaptic + ".vtp"), *organ.felt->mesh, space);
-    organ.felt->mesh = nullptr;
-  }
 }
 
 // Places of organs that one process reads, a few for each processor, as each reads the image anew.
@@ -174,9 +161,10 @@ std::vector<ImportedOrgan> importedOrgans(FileOrgans all, const std::vector<std:
       readSurfaces(all.organs, shares[next], source, readers);
       for (const std::size_t i : shares[next])
       {
-        made[i] = importedOrgan(std::move(all.organs[i]), source.file, unit);
+        const auto save = [&](const std::string& behind, vtkPolyData& mesh)
+        { writeSurface(folder / (files[i] + behind + ".vtp"), mesh, all.space); };
+        made[i] = importedOrgan(std::move(all.organs[i]), source.file, unit, save);
         made[i].file = files[i];
-        made[i].shown.mesh ? writeOrgan(folder, made[i], all.space) : void();
         tell(++done);
       }
     }

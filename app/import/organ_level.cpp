@@ -16,7 +16,6 @@
 #include <deque>
 #include <functional>
 #include <future>
-#include <limits>
 #include <utility>
 #include <vtkPolyData.h>
 
@@ -31,77 +30,91 @@ constexpr std::size_t kHapticPoints = 10'000; // four times those of the bundled
 struct Boundary
 {
   std::vector<Eigen::Vector3d> points; // [m]
+  std::span<const Triangle> triangles;
   BoxTree tree;
-  std::vector<Eigen::Vector3d> farthest; // those of them that smoothing moved the most [m]
+  std::vector<Eigen::Vector3d> asked; // few of them, the first to be far off where any is [m]
 };
 
-// what is known of a surface
-struct Found
+struct Shown
 {
-  Deviation apart;          // from its boundary
-  std::size_t crossing = 0; // triangles that others pass through
+  BoxTree tree;
+  Deviation apart; // from the boundary
 };
 
-Found foundOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
-  const Boundary& boundary)
+Shown shownOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
+  const std::shared_future<Boundary>& between)
 {
-  const BoxTree tree(points, triangles);
-  auto crossing =
-    std::async(std::launch::async, [&] { return crossingTriangles(tree, triangles).size(); });
-  constexpr double kAll = std::numeric_limits<double>::infinity();
-  const Deviation apart = deviation(points, tree, boundary.points, boundary.tree, kAll, true);
-  return { .apart = apart, .crossing = crossing.get() };
+  const Boundary& boundary = between.get();
+  const bool isSame = std::ranges::equal(boundary.triangles, triangles); // none was repaired
+  Shown shown{ .tree = isSame ? boundary.tree.moved(points, triangles) : BoxTree(points, triangles),
+    .apart = {} };
+  shown.apart = deviation(points, shown.tree, boundary.points, boundary.tree,
+    { .paired = true, .threads = std::launch::deferred }); // beside a decimation
+  return shown;
 }
 
-OrganLevel levelOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
-  const Deviation& apart)
+// one of sixteen that smoothing moved the most, and one of sixteen of all
+std::vector<Eigen::Vector3d> askedOf(const FileOrgan& organ, double length)
 {
-  return { .mesh = makePolyData(points, triangles),
-    .points = points.size(),
-    .triangles = triangles.size(),
-    .apart = apart };
-}
-
-// one of sixteen
-std::vector<Eigen::Vector3d> farthestOf(const FileOrgan& organ, double length)
-{
+  constexpr std::size_t kOneOf = 16;
   std::vector<std::pair<double, std::size_t>> moved(organ.from.size());
   for (std::size_t i = 0; i < moved.size(); ++i)
   {
     moved[i] = { (organ.from[i] - organ.surface.points[i]).squaredNorm(), i };
   }
-  const std::size_t count = moved.size() / 16;
+  const std::size_t count = moved.size() / kOneOf;
   std::ranges::nth_element(
     moved, moved.begin() + static_cast<std::ptrdiff_t>(count), std::greater());
-  std::vector<Eigen::Vector3d> farthest(count);
-  std::transform(moved.begin(), moved.begin() + static_cast<std::ptrdiff_t>(count),
-    farthest.begin(), [&](const auto& one) { return length * organ.from[one.second]; });
-  return farthest;
+  std::vector<Eigen::Vector3d> asked;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    asked.emplace_back(length * organ.from[moved[i].second]);
+    asked.emplace_back(length * organ.from[kOneOf * i]);
+  }
+  return asked;
 }
 
 Boundary boundaryOf(const FileOrgan& organ, double length)
 {
-  Boundary boundary{ .points = organ.from, .tree = {}, .farthest = farthestOf(organ, length) };
+  Boundary boundary{ .points = organ.from,
+    .triangles = organ.surface.triangles,
+    .tree = {},
+    .asked = askedOf(organ, length) };
   for (Eigen::Vector3d& point : boundary.points)
   {
     point *= length;
   }
-  boundary.tree = BoxTree(boundary.points, organ.surface.triangles);
+  boundary.tree = BoxTree(boundary.points, boundary.triangles);
   return boundary;
 }
 
-// by points that it shall be near
-bool isNearTo(std::span<const Eigen::Vector3d> points, const TriangleMesh& mesh, double most)
+// a coarser surface
+struct Coarse
 {
-  const BoxTree tree(mesh.points, mesh.triangles);
+  TriangleMesh mesh;
+  BoxTree tree{};    // once it was asked whether it is near
+  Deviation apart{}; // once that is known
+};
+
+// by points that it shall be near
+bool isNearTo(std::span<const Eigen::Vector3d> points, Coarse& level, double most)
+{
+  level.tree = BoxTree(level.mesh.points, level.mesh.triangles);
   return std::ranges::all_of(points,
-    [&](const Eigen::Vector3d& point) { return distanceTo(tree, point, 2.0 * most) <= most; });
+    [&](const Eigen::Vector3d& point)
+    { return distanceTo(level.tree, point, 2.0 * most) <= most; });
+}
+
+OrganLevel levelOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
+  const Deviation& apart)
+{
+  return { .points = points.size(), .triangles = triangles.size(), .apart = apart };
 }
 
 // Of as few points as stay within what the voxels tell.
-std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
-  std::span<const Triangle> triangles, double voxel, const std::shared_future<Found>& shown,
-  const Boundary& boundary)
+std::optional<Coarse> feltLevel(std::span<const Eigen::Vector3d> points,
+  std::span<const Triangle> triangles, double voxel, const std::shared_future<Shown>& shown,
+  const std::shared_future<Boundary>& between)
 {
   std::vector<std::size_t> counts;
   for (std::size_t count = kHapticPoints; 2 * count < points.size(); count *= 2)
@@ -114,7 +127,7 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   }
   counts.insert(counts.begin(), points.size() / 2);
   const auto most = [&] { return std::max(voxel, shown.get().apart.largest); };
-  std::deque<TriangleMesh> levels;
+  std::deque<Coarse> levels;
   std::future<bool> isNear; // the last of them; else no coarser one is
   decimateTo(counts, points, triangles, 0.5 * voxel,
     [&](TriangleMesh felt)
@@ -124,22 +137,21 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
         levels.pop_back();
         return false;
       }
-      const std::vector<Eigen::Vector3d>& asked =
-        levels.empty() ? boundary.points : boundary.farthest;
-      levels.push_back(std::move(felt));
+      levels.push_back({ .mesh = std::move(felt) });
       isNear = std::async(std::launch::async, // while the next one is made
-        [&, &last = levels.back()] { return isNearTo(asked, last, most()); });
+        [&, &last = levels.back()] { return isNearTo(between.get().asked, last, most()); });
       return true;
     });
   isNear.valid() && !isNear.get() ? levels.pop_back() : void();
   for (; !levels.empty(); levels.pop_back())
   {
-    const TriangleMesh& felt = levels.back();
-    const Deviation apart = deviation(
-      felt.points, BoxTree(felt.points, felt.triangles), boundary.points, boundary.tree, most());
-    if (apart.largest <= most())
+    Coarse& felt = levels.back();
+    const Boundary& boundary = between.get();
+    felt.apart =
+      deviation(felt.mesh.points, felt.tree, boundary.points, boundary.tree, { .most = most() });
+    if (felt.apart.largest <= most())
     {
-      return levelOf(felt.points, felt.triangles, apart);
+      return std::move(felt);
     }
   }
   return std::nullopt;
@@ -154,19 +166,18 @@ void addWarnings(const std::vector<std::string>& notes, std::vector<std::string>
   }
 }
 
-void warnOf(
-  const Found& shown, const std::string& noneFelt, double voxel, std::vector<std::string>& warnings)
+void warnOf(const Deviation& apart, const std::string& noneFelt, std::size_t crossing, double voxel,
+  std::vector<std::string>& warnings)
 {
-  if (constexpr double kFar = 2.0; shown.apart.largest > kFar * voxel)
+  if (constexpr double kFar = 2.0; apart.largest > kFar * voxel)
   {
     warnings.push_back("pieces of a few voxels are smoothed away, up to " +
-      units::inMillimeters(shown.apart.largest) + " from what is left");
+      units::inMillimeters(apart.largest) + " from what is left");
   }
   noneFelt.empty() ? void() : warnings.push_back(noneFelt);
-  if (shown.crossing > 0)
+  if (crossing > 0)
   {
-    warnings.push_back("its surface passes through itself, by " +
-      counted(shown.crossing, "triangle") +
+    warnings.push_back("its surface passes through itself, by " + counted(crossing, "triangle") +
       ", where the image is noisy or the organ as thin as a voxel; smooth the image there");
   }
 }
@@ -185,7 +196,8 @@ std::string numbered(
 
 } // namespace
 
-ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image, LengthUnit unit)
+ImportedOrgan importedOrgan(
+  FileOrgan organ, const std::filesystem::path& image, LengthUnit unit, const SaveSurface& save)
 {
   const double length = unitLength(unit);
   ImportedOrgan result{ .name = organ.name,
@@ -202,19 +214,27 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
   {
     return result;
   }
-  auto between = std::async(std::launch::async, boundaryOf, std::cref(organ), length);
+  const std::shared_future<Boundary> between =
+    std::async(std::launch::async, boundaryOf, std::cref(organ), length);
   const LoadedSurface loaded = madeReady(organ.surface, image, unit);
-  const Boundary boundary = between.get();
   addWarnings(loaded.notes, result.warnings);
   const std::vector<Eigen::Vector3d> points = pointsOf(*loaded.mesh);
   const std::vector<Triangle> triangles = trianglesOf(*loaded.mesh);
-  const std::shared_future<Found> shown =
-    std::async(std::launch::async, [&] { return foundOf(points, triangles, boundary); });
+  const std::shared_future<Shown> shown =
+    std::async(std::launch::async, [&] { return shownOf(points, triangles, between); });
+  auto crossing = std::async(std::launch::async,
+    [&]
+    {
+      const Shown& known = shown.get();
+      save("", *loaded.mesh);
+      return crossingTriangles(known.tree, triangles).size();
+    });
+  std::optional<Coarse> felt;
   std::string noneFelt; // why
   try
   {
-    result.felt = feltLevel(points, triangles, length * organ.voxel, shown, boundary);
-    noneFelt = result.felt || points.size() < 2 * kHapticPoints
+    felt = feltLevel(points, triangles, length * organ.voxel, shown, between);
+    noneFelt = felt || points.size() < 2 * kHapticPoints
       ? ""
       : "no coarser level: none of half as many points stays within a voxel of it";
   }
@@ -223,9 +243,14 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
     noneFelt = "no coarser level, so what is shown is felt, which takes longer: "
                "parts of it meet only in edges or points; smooth the image there";
   }
+  if (felt)
+  {
+    save(kHaptic, *makePolyData(felt->mesh.points, felt->mesh.triangles));
+    result.felt = levelOf(felt->mesh.points, felt->mesh.triangles, felt->apart);
+  }
   result.volume = enclosedVolume(points, triangles);
   result.shown = levelOf(points, triangles, shown.get().apart);
-  warnOf(shown.get(), noneFelt, length * organ.voxel, result.warnings);
+  warnOf(result.shown.apart, noneFelt, crossing.get(), length * organ.voxel, result.warnings);
   return result;
 }
 

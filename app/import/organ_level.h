@@ -5,10 +5,10 @@
 #include "pipeline/surface_io/length_unit.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
-#include <vtkSmartPointer.h>
 
 class vtkPolyData;
 
@@ -20,8 +20,7 @@ inline constexpr const char* kHaptic = "_haptic"; ///< behind the name of a file
 /// A surface of an organ, and how far it is from the boundary of its voxels.
 struct OrganLevel
 {
-  vtkSmartPointer<vtkPolyData> mesh; ///< [m]
-  std::size_t points = 0;
+  std::size_t points = 0; ///< 0: there is none
   std::size_t triangles = 0;
   Deviation apart{};
 };
@@ -37,19 +36,24 @@ struct ImportedOrgan
   double voxelVolume = 0.0; ///< of all of them [m^3]
   double enclosed = 0.0;    ///< volume of the pieces that were taken, as the voxels have it [m^3]
   double volume = 0.0;      ///< of the surface [m^3]
-  OrganLevel shown;         ///< no mesh: it has none, which the warnings tell
+  OrganLevel shown;         ///< none: it has no surface, which the warnings tell
   std::optional<OrganLevel> felt{};    ///< where fewer points serve as well
   std::vector<std::string> notes{};    ///< how it was taken from the image
   std::vector<std::string> warnings{}; ///< for people
 };
 
+/// Gets the surfaces of an organ as they are ready, from any thread.
+/// @param behind  the name of its file: kHaptic or nothing
+/// @param mesh    [m]
+using SaveSurface = std::function<void(const std::string& behind, vtkPolyData& mesh)>;
+
 /// Makes an organ ready: repaired and facing outward, in two levels of detail.
 ///
 /// @param organ   with its surface, which is used up
 /// @param image   that it is from, for messages
-/// @throws Error  as madeReady
+/// @throws Error  as madeReady, and what save throws
 [[nodiscard]] ImportedOrgan importedOrgan(
-  FileOrgan organ, const std::filesystem::path& image, LengthUnit unit);
+  FileOrgan organ, const std::filesystem::path& image, LengthUnit unit, const SaveSurface& save);
 
 /// Names that stand once in a scene, and files of their own for them: letters, digits, dots,
 /// hyphens and underscores, and a number behind one that another has.

@@ -69,6 +69,11 @@ void setBox(BoxTree::Node& node, const Box& box)
   node.high = { box.high[0], box.high[1], box.high[2] };
 }
 
+Box boxOf(const BoxTree::Node& node)
+{
+  return { .low = Eigen::Array3f(node.low.data()), .high = Eigen::Array3f(node.high.data()) };
+}
+
 // median split along the longest side of the box of the middles; the box of all that is below
 Box split(std::vector<BoxTree::Node>& nodes, std::span<Entry> entries, int first,
   std::span<const Box> boxes)
@@ -157,6 +162,37 @@ BoxTree::BoxTree(std::span<const Eigen::Vector3d> points, std::span<const Triang
     facets_.push_back(facet);
     order_.push_back(entry.triangle);
   }
+}
+
+BoxTree BoxTree::moved(
+  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles) const
+{
+  BoxTree result = *this;
+  bool isSame = facets_.size() == triangles.size();
+  for (std::size_t i = 0; i < facets_.size() && isSame; ++i)
+  {
+    isSame = makeFacet(points, triangles[at(order_[i])], result.facets_[i]);
+  }
+  if (!isSame)
+  {
+    return { points, triangles }; // other ones have no area
+  }
+  for (std::size_t i = result.nodes_.size(); i-- > 0;) // what is below a node follows it
+  {
+    Node& node = result.nodes_[i];
+    Box box;
+    for (int k = node.first; k < node.first + node.count; ++k)
+    {
+      box.add(boxOf(result.facets_[at(k)]));
+    }
+    if (node.count == 0)
+    {
+      box = boxOf(result.nodes_[i + 1]);
+      box.add(boxOf(result.nodes_[at(node.first)]));
+    }
+    setBox(node, box);
+  }
+  return result;
 }
 
 } // namespace palp

@@ -11,9 +11,10 @@ namespace palp
 MergedMesh mergedMesh(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
 {
   const std::vector<int> first = firstOfEach(points);
-  std::vector<int> number(points.size(), -1);
+  std::vector<bool> isUsed(points.size());
   MergedMesh result;
   result.triangles.reserve(triangles.size());
+  result.from.reserve(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     Triangle t = triangles[i];
@@ -22,18 +23,19 @@ MergedMesh mergedMesh(std::span<const Eigen::Vector3d> points, std::span<const T
     {
       continue;
     }
-    for (int& corner : t)
-    {
-      int& known = number[at(corner)];
-      if (known < 0)
-      {
-        known = static_cast<int>(result.points.size());
-        result.points.emplace_back(points[at(corner)].cast<float>().cast<double>());
-      }
-      corner = known;
-    }
+    std::ranges::for_each(t, [&](int corner) { isUsed[at(corner)] = true; });
     result.triangles.push_back(t);
     result.from.push_back(static_cast<int>(i));
+  }
+  std::vector<int> number(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    number[i] = static_cast<int>(result.points.size());
+    isUsed[i] ? result.points.push_back(points[i].cast<float>().cast<double>()) : void();
+  }
+  for (Triangle& t : result.triangles)
+  {
+    std::ranges::transform(t, t.begin(), [&](int corner) { return number[at(corner)]; });
   }
   return result;
 }

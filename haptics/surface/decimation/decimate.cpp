@@ -33,6 +33,7 @@ public:
     , squaredError_(error * error)
     , left_(mesh.n_vertices())
     , known_(left_)
+    , costs_(mesh.n_halfedges())
     , vertices_(mesh.vertices_begin(), mesh.vertices_end())
   {
     for (const HalfEdges::FaceHandle face : mesh.faces())
@@ -52,6 +53,10 @@ public:
         known(corner).planes.add(Eigen::Vector3d(normal.data()), -(normal | on), area);
         known(corner).area += area;
       }
+    }
+    for (const HalfEdges::EdgeHandle edge : mesh.edges())
+    {
+      evaluate(mesh.halfedge_handle(edge, 0));
     }
   }
 
@@ -127,7 +132,7 @@ private:
     Choice best{};
     for (const HalfEdge edge : mesh_.voh_range(vertex))
     {
-      const double cost = costOf(edge);
+      const double cost = costs_[static_cast<std::size_t>(edge.idx())];
       best = cost < best.cost ? Choice{ cost, edge } : best;
     }
     return best;
@@ -138,19 +143,25 @@ private:
     return Eigen::Vector3d(mesh_.point(vertex).data());
   }
 
-  // infinite where it is more than allowed
-  [[nodiscard]] double costOf(HalfEdge edge)
+  // what it costs to take either end away; infinite where it is more than allowed
+  void evaluate(HalfEdge edge)
   {
-    const Vertex from = mesh_.from_vertex_handle(edge);
+    const HalfEdge back = mesh_.opposite_halfedge_handle(edge);
     const Vertex to = mesh_.to_vertex_handle(edge);
-    const OpenMesh::Vec3d& place = mesh_.point(to);
-    const Eigen::Vector3d x(place.data());
-    const double moved = std::max(0.0, known(from).planes.at(x) + known(to).planes.at(x));
-    const double area = known(from).area + known(to).area;
+    const Vertex from = mesh_.to_vertex_handle(back);
+    const Known& a = known(from);
+    const Known& b = known(to);
+    const double area = a.area + b.area;
     constexpr double kEven = 1e-6; // among equals the shorter edge, so that triangles stay round
-    return moved <= squaredError_ * area
-      ? moved + kEven * area * (place - mesh_.point(from)).sqrnorm()
-      : std::numeric_limits<double>::infinity();
+    const double even = kEven * area * (mesh_.point(to) - mesh_.point(from)).sqrnorm();
+    const auto costAt = [&](Vertex kept)
+    {
+      const Eigen::Vector3d x = placeOf(kept);
+      const double moved = std::max(0.0, a.planes.at(x) + b.planes.at(x));
+      return moved <= squaredError_ * area ? moved + even : std::numeric_limits<double>::infinity();
+    };
+    costs_[static_cast<std::size_t>(edge.idx())] = costAt(to);
+    costs_[static_cast<std::size_t>(back.idx())] = costAt(from);
   }
 
   void take(HalfEdge edge)
@@ -178,6 +189,7 @@ private:
     known(to).isAsked = false;
     for (const HalfEdge out : mesh_.voh_range(to))
     {
+      evaluate(out);
       compare(mesh_.opposite_halfedge_handle(out));
     }
     --left_;
@@ -196,7 +208,7 @@ private:
   {
     if (Known& here = known(mesh_.from_vertex_handle(edge)); here.isAsked)
     {
-      const double cost = costOf(edge);
+      const double cost = costs_[static_cast<std::size_t>(edge.idx())];
       here.best = cost < here.best.cost ? Choice{ cost, edge } : here.best;
     }
   }
@@ -272,6 +284,8 @@ private:
   double squaredError_; // [m^2]
   std::size_t left_;    // points
   std::vector<Known> known_;
+  std::vector<double> costs_;    // of half-edges: squared distance times area, and a little of the
+                                 // length [m^4]
   std::vector<Vertex> vertices_; // but for those that were taken before this round
   int now_ = 0;                  // round
 };

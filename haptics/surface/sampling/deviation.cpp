@@ -3,6 +3,7 @@
 #include "haptics/surface/closest_point.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <future>
@@ -55,15 +56,28 @@ Deviation deviation(const Surface& a, const Surface& b)
 }
 
 Deviation deviation(std::span<const Eigen::Vector3d> a, const BoxTree& aTree,
-  std::span<const Eigen::Vector3d> b, const BoxTree& bTree, double most, bool paired)
+  std::span<const Eigen::Vector3d> b, const BoxTree& bTree, const DeviationSearch& search)
 {
-  const std::span<const Eigen::Vector3d> none;
-  auto other =
-    std::async(std::launch::async, distances, b, std::cref(aTree), most, paired ? a : none);
-  const auto [largest, sum] = distances(a, bTree, most, paired ? b : none);
-  const auto [otherLargest, otherSum] = other.get();
-  return { .largest = std::max(largest, otherLargest),
-    .rootMeanSquare = std::sqrt((sum + otherSum) / static_cast<double>(a.size() + b.size())) };
+  const auto begin = [&](std::span<const Eigen::Vector3d> from, const BoxTree& to,
+                       std::span<const Eigen::Vector3d> pairs)
+  {
+    return std::async(search.threads, distances, from, std::cref(to), search.most,
+      search.paired ? pairs : std::span<const Eigen::Vector3d>());
+  };
+  const std::size_t half = b.size() / 2; // b may have many more points than a
+  const std::size_t pairs = std::min(half, a.size());
+  std::array parts{ begin(b.first(half), aTree, a.first(pairs)),
+    begin(b.subspan(half), aTree, a.subspan(pairs)), begin(a, bTree, b) };
+  double largest = 0.0;
+  double sum = 0.0;
+  for (auto& part : parts)
+  {
+    const auto [partLargest, partSum] = part.get();
+    largest = std::max(largest, partLargest);
+    sum += partSum;
+  }
+  return { .largest = largest,
+    .rootMeanSquare = std::sqrt(sum / static_cast<double>(a.size() + b.size())) };
 }
 
 } // namespace palp

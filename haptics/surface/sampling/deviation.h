@@ -2,6 +2,7 @@
 
 #include "haptics/surface/surface.h"
 
+#include <future>
 #include <limits>
 
 namespace palp
@@ -18,12 +19,19 @@ struct Deviation
 /// @param a, b  of one shape; points without a triangle do not count
 [[nodiscard]] Deviation deviation(const Surface& a, const Surface& b);
 
+/// How a deviation is sought.
+struct DeviationSearch
+{
+  /// where surfaces are farther apart it may end: more than that is found then [m]
+  double most = std::numeric_limits<double>::infinity();
+  /// whether each point of one began where that of the same place in the other is, all of them on
+  /// triangles: quicker
+  bool paired = false;
+  std::launch threads = std::launch::async; ///< three, or deferred: the caller's alone
+};
+
 /// The same of points and of the trees of their triangles, without what a Surface knows besides.
-/// @param most   where they are farther apart, the search may end: more than that is found then [m]
-/// @param paired whether each point of one began where that of the same place in the other is, all
-///               of them on triangles: quicker
 [[nodiscard]] Deviation deviation(std::span<const Eigen::Vector3d> a, const BoxTree& aTree,
-  std::span<const Eigen::Vector3d> b, const BoxTree& bTree,
-  double most = std::numeric_limits<double>::infinity(), bool paired = false);
+  std::span<const Eigen::Vector3d> b, const BoxTree& bTree, const DeviationSearch& search = {});
 
 } // namespace palp

@@ -15,6 +15,10 @@ namespace palp
 namespace
 {
 
+void nowhere(const std::string& /*behind*/, vtkPolyData& /*mesh*/)
+{
+}
+
 // else one would be felt where the other is shown
 TEST(NameFiles, GivesNoneTheNameOfTheCoarserLevelOfAnother)
 {
@@ -80,7 +84,7 @@ TEST(ImportedOrgan, TellsOfASurfaceThatPassesThroughItself)
     out.close();
     FileOrgans found = readFileOrgans(file, {}, false);
     const ImportedOrgan organ =
-      importedOrgan(std::move(found.organs.at(0)), file, LengthUnit::Millimeter);
+      importedOrgan(std::move(found.organs.at(0)), file, LengthUnit::Millimeter, nowhere);
     const auto tells = [](const std::string& warning)
     { return warning.find("passes through itself") != warning.npos; };
     EXPECT_EQ(std::ranges::any_of(organ.warnings, tells), thick == 1);
@@ -101,7 +105,7 @@ TEST(ImportedOrgan, TellsWhyALargeOneHasNoCoarserLevel)
     organ.surface.points = organ.from = ball.points;
     organ.surface.triangles = ball.triangles;
     organ.voxel = 1.0;
-    const ImportedOrgan found = importedOrgan(organ, "ball.mha", LengthUnit::Millimeter);
+    const ImportedOrgan found = importedOrgan(organ, "ball.mha", LengthUnit::Millimeter, nowhere);
     EXPECT_FALSE(found.felt);
     const auto tells = [](const std::string& warning)
     { return warning.find("no coarser level, so what is shown is felt") != warning.npos; };

@@ -12,6 +12,7 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <tuple>
 
 namespace palp
 {
@@ -214,6 +215,42 @@ TEST_P(TJoint, SliverOfRoundingHasNoSayInNormalsAndSides)
       const double aside = 0.01 / std::hypot(1.0, slope); // of the slopes, from where they meet
       ASSERT_NEAR(out, slope < 0.0 ? aside : 0.01, 1e-9) << x;
       ASSERT_NEAR(in, slope > 0.0 ? -aside : -0.01, 1e-9) << x;
+    }
+  }
+}
+
+// against all triangles, one by one; in the third and fourth case other ones have no area than
+// before
+TEST(BoxTree, OfMovedPointsFindsTheNearestTriangle)
+{
+  const auto [ball, triangles] = test::ball(1.0, 6);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> within(-1.0, 1.0);
+  const auto anywhere = [&](double far)
+  { return Eigen::Vector3d(far * within(random), far * within(random), far * within(random)); };
+  for (const auto& [far, isFlatBefore, isFlatAfter] : { std::tuple(0.02, false, false),
+         { 5.0, false, false }, { 0.02, true, false }, { 0.02, false, true } })
+  {
+    std::vector<Eigen::Vector3d> points = ball;
+    std::vector<Eigen::Vector3d> moved = ball;
+    for (Eigen::Vector3d& point : moved)
+    {
+      point += anywhere(far);
+    }
+    const auto& [from, to, other] = triangles[5];
+    const auto flatten = [a = at(from), b = at(to)](auto& all) { all[a] = all[b]; };
+    isFlatBefore ? flatten(points) : void();
+    isFlatAfter ? flatten(moved) : void();
+    const BoxTree tree = BoxTree(points, triangles).moved(moved, triangles);
+    for (int i = 0; i < 200; ++i)
+    {
+      const Eigen::Vector3d place = anywhere(2.0);
+      double least = 100.0;
+      for (const Triangle& triangle : triangles)
+      {
+        least = distanceTo(BoxTree(moved, { &triangle, 1 }), place, least);
+      }
+      ASSERT_NEAR(distanceTo(tree, place, 100.0), least, 1e-12) << far;
     }
   }
 }
