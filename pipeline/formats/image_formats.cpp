@@ -181,6 +181,28 @@ PatientImage readNifti(const std::filesystem::path& file)
   return result;
 }
 
+void takeSides(PatientImage& volume)
+{
+  double spacing[3];
+  double origin[3];
+  volume.image->GetSpacing(spacing);
+  volume.image->GetOrigin(origin);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto form = [&](std::size_t i) -> double& { return volume.toPatient[4 * i + k]; };
+    const double side = std::hypot(form(0), form(1), form(2));
+    const bool isSide = side > 0.0 && std::isfinite(side); // else the matrix is refused
+    for (std::size_t i = 0; i < 3 && isSide; ++i)
+    {
+      form(i) /= side;
+    }
+    spacing[k] *= isSide ? side : 1.0;
+    origin[k] *= isSide ? side : 1.0;
+  }
+  volume.image->SetSpacing(spacing);
+  volume.image->SetOrigin(origin);
+}
+
 std::uintmax_t claimedBytes(const std::filesystem::path& file) noexcept
 {
   try

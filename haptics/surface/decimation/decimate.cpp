@@ -71,12 +71,9 @@ public:
   }
 
 private:
-  struct Choice
-  {
-    // squared distance times area, and a little of the length [m^4]
-    double cost = std::numeric_limits<double>::infinity();
-    HalfEdge edge{};
-  };
+  // its cost, as in costs_, and the edge; what is none comes last
+  using Choice = std::pair<double, HalfEdge>;
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
 
   // of a point
   struct Known
@@ -85,13 +82,13 @@ private:
     double area = 0.0;    // twice theirs [m^2]
     int round = 0;        // in which something next to it was taken
     Vertex nextTo{};      // that is looked at
-    Choice best{};        // of its edges
+    Choice best{};        // of its edges, if any may be taken
     bool isAsked = false; // it holds since something changed
   };
 
   Known& known(Vertex vertex)
   {
-    return known_[static_cast<std::size_t>(vertex.idx())];
+    return known_[at(vertex.idx())];
   }
 
   // how many points were taken
@@ -109,31 +106,29 @@ private:
         here.best = bestOf(vertex);
       }
       const Choice& best = known(vertex).best;
-      best.edge.is_valid() ? choices.push_back(best) : void();
+      best.first < kNever ? choices.push_back(best) : void();
     }
-    const auto order = [](const Choice& one) { return std::pair(one.cost, one.edge); };
     const std::size_t before = left_;
     const std::size_t some = (choices.size() + 7) / 8; // others may be cheaper when these are done
     const auto end = choices.begin() + static_cast<std::ptrdiff_t>(some);
-    std::ranges::nth_element(choices, end, {}, order);
+    std::ranges::nth_element(choices, end, std::less());
     choices.resize(some);
     constexpr std::size_t kMany = 4096; // taken as they lie in memory, in a twentieth less time
-    some > kMany ? std::ranges::sort(choices, {}, [](const Choice& one) { return one.edge.idx(); })
-                 : std::ranges::sort(choices, {}, order);
+    some > kMany ? std::ranges::sort(choices, std::less(), &Choice::second)
+                 : std::ranges::sort(choices, std::less());
     for (const Choice& choice : choices)
     {
-      left_ > count ? take(choice.edge) : void();
+      left_ > count ? take(choice.second) : void();
     }
     return before - left_;
   }
 
   Choice bestOf(Vertex vertex)
   {
-    Choice best{};
+    Choice best{ kNever, HalfEdge() };
     for (const HalfEdge edge : mesh_.voh_range(vertex))
     {
-      const double cost = costs_[static_cast<std::size_t>(edge.idx())];
-      best = cost < best.cost ? Choice{ cost, edge } : best;
+      best = std::min(best, Choice(costs_[at(edge.idx())], edge));
     }
     return best;
   }
@@ -158,10 +153,10 @@ private:
     {
       const Eigen::Vector3d x = placeOf(kept);
       const double moved = std::max(0.0, a.planes.at(x) + b.planes.at(x));
-      return moved <= squaredError_ * area ? moved + even : std::numeric_limits<double>::infinity();
+      return moved <= squaredError_ * area ? moved + even : kNever;
     };
-    costs_[static_cast<std::size_t>(edge.idx())] = costAt(to);
-    costs_[static_cast<std::size_t>(back.idx())] = costAt(from);
+    costs_[at(edge.idx())] = costAt(to);
+    costs_[at(back.idx())] = costAt(from);
   }
 
   void take(HalfEdge edge)
@@ -199,7 +194,7 @@ private:
   void askAgain(Vertex vertex, Vertex other)
   {
     Known& here = known(vertex);
-    const HalfEdge best = here.best.edge;
+    const HalfEdge best = here.best.second;
     here.isAsked = here.isAsked && !(best.is_valid() && mesh_.to_vertex_handle(best) == other);
   }
 
@@ -208,8 +203,7 @@ private:
   {
     if (Known& here = known(mesh_.from_vertex_handle(edge)); here.isAsked)
     {
-      const double cost = costs_[static_cast<std::size_t>(edge.idx())];
-      here.best = cost < here.best.cost ? Choice{ cost, edge } : here.best;
+      here.best = std::min(here.best, Choice(costs_[at(edge.idx())], edge));
     }
   }
 
@@ -301,7 +295,7 @@ TriangleMesh whatIsLeft(const HalfEdges& mesh)
   {
     if (isLeft(vertex))
     {
-      numbers[static_cast<std::size_t>(vertex.idx())] = static_cast<int>(result.points.size());
+      numbers[at(vertex.idx())] = static_cast<int>(result.points.size());
       result.points.emplace_back(mesh.point(vertex).data());
     }
   }
@@ -313,7 +307,7 @@ TriangleMesh whatIsLeft(const HalfEdges& mesh)
     }
     Triangle& triangle = result.triangles.emplace_back();
     std::ranges::transform(mesh.fv_range(face), triangle.begin(),
-      [&](Vertex vertex) { return numbers[static_cast<std::size_t>(vertex.idx())]; });
+      [&](Vertex vertex) { return numbers[at(vertex.idx())]; });
   }
   return result;
 }

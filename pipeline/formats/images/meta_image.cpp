@@ -45,15 +45,15 @@ void readSpacing(const std::filesystem::path& file, const MetaFields& fields, Me
   }
   const auto unit = fields.find("DistanceUnits");
   const std::string name = unit == fields.end() ? "" : unit->second;
-  if (name == "um" || name == "mm" || name == "cm")
-  {
-    header.unit = name;
-  }
-  else if (!name.empty() && name != "?") // as MetaIO writes it where it knows none
+  const bool isNone = name.empty() || name == "?"; // as MetaIO writes it where it knows none
+  if (!isNone && name != "um" && name != "mm" && name != "cm")
   {
     refuse(file,
       "its DistanceUnits is " + inQuotes(name) + ", none of MetaImage's; write um, mm or cm there");
   }
+  // ITK and 3D Slicer write none in the patient's axes
+  const bool isPatient = fields.contains("AnatomicalOrientation");
+  header.unit = !isNone ? name : isPatient ? "mm" : "";
 }
 
 // what is stored times the slope, plus the offset

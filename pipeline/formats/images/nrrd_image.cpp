@@ -4,6 +4,7 @@
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/images/inflate.h"
 #include "pipeline/formats/images/nrrd_fields.h"
+#include "pipeline/formats/images/nrrd_segments.h"
 #include "pipeline/formats/meshes/refuse.h"
 
 #include <algorithm>
@@ -216,58 +217,6 @@ void place(const std::filesystem::path& file, const NrrdFields& fields, PatientI
                                    "taken");
 }
 
-// of red, green and blue from 0 to 1; empty: no such
-std::string colorOf(const std::vector<double>& parts)
-{
-  if (parts.size() != 3 ||
-    !std::ranges::all_of(parts, [](double part) { return part >= 0.0 && part <= 1.0; }))
-  {
-    return {};
-  }
-  std::array<char, 8> text{};
-  std::snprintf(text.data(), text.size(), "#%02x%02x%02x",
-    static_cast<unsigned>(std::lround(255.0 * parts[0])),
-    static_cast<unsigned>(std::lround(255.0 * parts[1])),
-    static_cast<unsigned>(std::lround(255.0 * parts[2])));
-  return text.data();
-}
-
-// Segment0_Name and those beside it, as 3D Slicer writes them; its older files have a layer of ones
-// for each segment, and name neither
-std::vector<Segment> segmentsOf(
-  const std::filesystem::path& file, const NrrdFields& fields, int layers)
-{
-  std::vector<Segment> segments;
-  for (int i = 0;; ++i)
-  {
-    const std::string key = "Segment" + std::to_string(i) + "_";
-    if (!fields.contains(key + "Name"))
-    {
-      return segments;
-    }
-    Segment segment{ .name = fieldOf(fields, key + "Name"),
-      .value = numberOf(fieldOf(fields, key + "LabelValue"), 1.0),
-      .color = colorOf(numbersIn(fieldOf(fields, key + "Color"))) };
-    const double layer = numberOf(fieldOf(fields, key + "Layer"), layers > 1 ? i : 0.0);
-    if (!(layer >= 0.0 && layer < layers))
-    {
-      refuse(file,
-        "its segment " + inQuotes(segment.name) + " is in layer " + shortest(layer) + " of " +
-          std::to_string(layers) + ", counted from 0; export it again");
-    }
-    segment.layer = static_cast<int>(layer);
-    const auto isThere = [&](const Segment& other)
-    { return other.layer == segment.layer && other.value == segment.value; };
-    if (std::ranges::any_of(segments, isThere))
-    {
-      refuse(file,
-        "two of its segments have the value " + shortest(segment.value) +
-          " in one layer; export it again");
-    }
-    segments.push_back(std::move(segment));
-  }
-}
-
 std::uintmax_t bytesOf(const Sizes& sizes, int type)
 {
   auto bytes = static_cast<std::uintmax_t>(sizes.layers) *
@@ -336,7 +285,7 @@ PatientImage readNrrd(const std::filesystem::path& file)
   {
     vtkByteSwap::SwapVoidRange(voxels, bytes / wide, wide);
   }
-  result.segments = segmentsOf(file, fields, sizes.layers);
+  result.segments = nrrdSegments(file, fields, sizes.layers);
   return result;
 }
 

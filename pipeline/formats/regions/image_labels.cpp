@@ -113,9 +113,8 @@ std::vector<Label> labelsOf(const PatientImage& volume, const ImageValues& first
 
 std::vector<Label> bodiesAmong(std::vector<Label> labels)
 {
-  std::erase_if(labels,
-    [](const Label& label)
-    { return label.segment.name.empty() && (label.shown == 0.0 || label.segment.layer > 0); });
+  std::erase_if(
+    labels, [](const Label& label) { return label.segment.name.empty() && label.shown == 0.0; });
   return labels;
 }
 

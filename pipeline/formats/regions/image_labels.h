@@ -33,7 +33,7 @@ struct Label
 /// @param first   values of its first layer
 [[nodiscard]] std::vector<Label> labelsOf(const PatientImage& volume, const ImageValues& first);
 
-/// Those that are bodies: not the background, nor what no segment of a layer is.
+/// Those that are bodies: all but the background.
 [[nodiscard]] std::vector<Label> bodiesAmong(std::vector<Label> labels);
 
 /// For people: value, name, voxels and volume of each.

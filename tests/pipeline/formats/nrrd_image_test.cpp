@@ -324,7 +324,7 @@ TEST_F(Images, AnNrrdThatIsDamagedIsRefusedByItsFault)
       { changed(raw, "40 44 48", "40 44 -48"), "its sizes are '40 44 -48'" },
       { changed(raw, "sizes: 40 44 48", "sizes: 40000 44000 48000"), "of 168960000000000 bytes" },
       { changed(raw, "type: int16", "type: int16\ntype: uint8"), "has 'type' twice" },
-      { changed(raw, "Layer:=0", "Layer:=2"), "its segment 'Liver' is in layer 2 of 1" },
+      { changed(raw, "Layer:=0", "Layer:=2"), "its segment 'Liver' has the Layer '2', none of 1" },
       { changed(raw, "(0,2,0)", "(2,0,0)"), "do not span space" },
       { "NRRD0005\n\n", "its encoding is ''" } })
   {
