@@ -91,14 +91,15 @@ bool collapse(HalfEdges& mesh, Halfedge shortest, double mostOff)
   {
     const Vertex from = mesh.from_vertex_handle(way);
     const Vertex to = mesh.to_vertex_handle(way);
-    if (mesh.status(from).tagged() || mesh.status(to).tagged())
+    if (mesh.status(from).selected() || mesh.status(to).selected())
     {
-      continue; // at once, one after the other, they would lead around a cylinder
+      continue; // at once, one after the other, they would lead around a cylinder; tags are not
+                // free
     }
     const bool onBorder = mesh.is_boundary(from) && !mesh.is_boundary(mesh.edge_handle(way));
     if (!onBorder && mesh.is_collapse_ok(way) && mayGo(mesh, from, to, mostOff))
     {
-      mesh.status(to).set_tagged(true);
+      mesh.status(to).set_selected(true);
       mesh.collapse(way);
       return true;
     }
@@ -177,7 +178,7 @@ void removeFrom(HalfEdges& mesh)
     isDone = true;
     for (const Vertex vertex : mesh.vertices())
     {
-      mesh.status(vertex).set_tagged(false);
+      mesh.status(vertex).set_selected(false);
     }
     for (const OpenMesh::FaceHandle face : mesh.faces())
     {

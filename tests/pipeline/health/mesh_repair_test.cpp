@@ -198,6 +198,39 @@ TEST(MeshRepair, RemovesFlatTrianglesAndNeedles)
   EXPECT_NEAR(volumeOf(mended.points, mended.triangles), volume, 1e-3 * volume);
 }
 
+// each of two needles has one end of its short side in the middle of an edge: that end goes
+TEST(MeshRepair, TakesAPointAwayThatCutsAnEdgeNearItsEnd)
+{
+  const Mesh sphere = makeSphere(0.06, 3);
+  const double volume = volumeOf(sphere.points, sphere.triangles);
+  for (int i = 0; i < 40; ++i)
+  {
+    const auto [a, b, c] = sphere.triangles[at(31 * i)];
+    for (const double part : { 1e-4, 1e-3, 9e-3, 0.991, 0.999, 0.9999 })
+    {
+      Mesh mesh = sphere;
+      const auto m = static_cast<int>(mesh.points.size());
+      mesh.points.emplace_back(
+        mesh.points[at(a)] + part * (mesh.points[at(b)] - mesh.points[at(a)]));
+      for (std::size_t k = 0; k < sphere.triangles.size(); ++k)
+      {
+        Triangle& one = mesh.triangles[k];
+        if (std::ranges::count(one, a) + std::ranges::count(one, b) == 2)
+        {
+          Triangle other = one;
+          std::ranges::replace(one, a, m);
+          std::ranges::replace(other, b, m);
+          mesh.triangles.push_back(other);
+        }
+      }
+      const RepairedMesh mended = repairedOf(mesh);
+      EXPECT_EQ(mended.points.size(), sphere.points.size()) << i << ' ' << part;
+      EXPECT_TRUE(healthOf(mended).findings.empty()) << i << ' ' << part;
+      EXPECT_NEAR(volumeOf(mended.points, mended.triangles), volume, 1e-6 * volume);
+    }
+  }
+}
+
 // as CAD programs mesh them: nothing of their shape goes with the slivers
 TEST(MeshRepair, KeepsCylindersAndPlatesOfLongTriangles)
 {
