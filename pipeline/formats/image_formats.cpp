@@ -1,5 +1,6 @@
 #include "pipeline/formats/image_formats.h"
 
+#include "haptics/files/csv_text.h"
 #include "pipeline/formats/images/meta_image.h"
 #include "pipeline/formats/images/nifti_header.h"
 #include "pipeline/formats/images/nrrd_image.h"
@@ -181,7 +182,7 @@ PatientImage readNifti(const std::filesystem::path& file)
   return result;
 }
 
-void takeSides(PatientImage& volume)
+void takeSides(const std::filesystem::path& file, PatientImage& volume)
 {
   double spacing[3];
   double origin[3];
@@ -191,13 +192,24 @@ void takeSides(PatientImage& volume)
   {
     const auto form = [&](std::size_t i) -> double& { return volume.toPatient[4 * i + k]; };
     const double side = std::hypot(form(0), form(1), form(2));
-    const bool isSide = side > 0.0 && std::isfinite(side); // else the matrix is refused
-    for (std::size_t i = 0; i < 3 && isSide; ++i)
+    const double length = std::abs(spacing[k]) * side;
+    if (!(length > 0.0 && std::isfinite(length)))
+    {
+      return; // nor do the axes span space, by which it is refused
+    }
+    constexpr double kShortest = 1e-8; // of micrometers in meters, and the other way around
+    if (length < kShortest || length > 1.0 / kShortest)
+    {
+      refuse(file,
+        "a voxel of its header is " + shortest(length) + " long along axis " +
+          std::to_string(k + 1) + ", as none is; export it again");
+    }
+    spacing[k] *= side;
+    origin[k] *= side;
+    for (std::size_t i = 0; i < 3; ++i)
     {
       form(i) /= side;
     }
-    spacing[k] *= isSide ? side : 1.0;
-    origin[k] *= isSide ? side : 1.0;
   }
   volume.image->SetSpacing(spacing);
   volume.image->SetOrigin(origin);

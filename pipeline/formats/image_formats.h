@@ -23,7 +23,8 @@ namespace palp
 
 /// Gives an image the true sides of its voxels as spacing, where its matrix has them: what is known
 /// between voxels goes by them.
-void takeSides(PatientImage& volume);
+/// @throws Error  BadFile: they are no lengths
+void takeSides(const std::filesystem::path& file, PatientImage& volume);
 
 /// Bytes of the voxels that the header of an image claims; 0 where it cannot be read.
 [[nodiscard]] std::uintmax_t claimedBytes(const std::filesystem::path& file) noexcept;

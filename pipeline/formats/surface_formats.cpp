@@ -250,7 +250,7 @@ PatientImage imageOf(const std::filesystem::path& file, const Format& format, co
   PatientImage volume = format.readImage ? format.readImage(file)
     : &format == &kDicomFolder           ? dicom.series(file, part.series)
                                          : dicom.segments(file);
-  takeSides(volume);
+  takeSides(file, volume);
   giveNames(volume, part.names);
   return volume;
 }

@@ -39,6 +39,7 @@ const Tag kNumber(0x0020, 0x0011);
 const Tag kPosition(0x0020, 0x0032);
 const Tag kOrientation(0x0020, 0x0037);
 const Tag kFrame(0x0020, 0x0052);
+const Tag kPatient(0x0010, 0x0020);
 const Tag kSpacing(0x0028, 0x0030);
 const Tag kIntercept(0x0028, 0x1052);
 const Tag kSlope(0x0028, 0x1053);
@@ -81,7 +82,8 @@ DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
     .rowSpacing = spacing->front(),
     .slope = decimalOf(data, kSlope, 1.0),
     .intercept = decimalOf(data, kIntercept, 0.0),
-    .frame = textOf(data, kFrame) };
+    .frame = textOf(data, kFrame),
+    .patient = textOf(data, kPatient) };
   const bool isSquare = std::abs(slice.alongRow.norm() - 1.0) < kAlike &&
     std::abs(slice.alongColumn.norm() - 1.0) < kAlike &&
     std::abs(slice.alongRow.dot(slice.alongColumn)) < kAlike;
@@ -143,7 +145,15 @@ void checkAlike(const std::filesystem::path& folder, const DicomSeries& series)
         nameOf(slice) + " has another size, direction or spacing than " + nameOf(first) +
           "; keep the images of one stack in the folder");
     }
-    if (!slice.frame.empty() && !first.frame.empty() && slice.frame != first.frame)
+    const auto differ = [](const std::string& one, const std::string& other)
+    { return !one.empty() && !other.empty() && one != other; };
+    if (differ(slice.patient, first.patient))
+    {
+      refuse(folder,
+        nameOf(slice) + " is of another patient than " + nameOf(first) +
+          "; keep the images of one in the folder");
+    }
+    if (differ(slice.frame, first.frame))
     {
       refuse(folder,
         nameOf(slice) + " has another Frame of Reference than " + nameOf(first) +

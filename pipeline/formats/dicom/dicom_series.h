@@ -21,7 +21,8 @@ struct DicomSlice
   double rowSpacing = 0.0;    ///< [mm]
   double slope = 1.0;         ///< a voxel's value is slope times what is stored, plus intercept
   double intercept = 0.0;
-  std::string frame{}; ///< UID of the Frame of Reference; empty: not told
+  std::string frame{};   ///< UID of the Frame of Reference; empty: not told
+  std::string patient{}; ///< Patient ID; empty: not told
 };
 
 /// The images of a folder that one SeriesInstanceUID holds together.

@@ -295,14 +295,12 @@ TEST_F(Dicom, OneImageOfAnotherLengthOrPlaceIsNamed)
     return refusal("one");
   };
   const std::string whole(2 * 40 * 36, '\0');
-  for (const std::string& voxels : { whole.substr(0, whole.size() / 2), whole + whole })
+  for (const std::string& voxels : { whole.substr(whole.size() / 2), whole + whole })
   {
-    write("voxels", voxels);
-    const std::string told =
-      change("-mf '(7fe0,0010)=" + (folder_.path() / "voxels").string() + "'");
-    EXPECT_NE(told.find(words("one1_10.dcm: its Pixel Data are ", voxels.size(), " bytes")),
-      std::string::npos)
-      << told;
+    const std::string file = write("voxels", voxels).string();
+    const std::string told = change("-mf '(7fe0,0010)=" + file + "'");
+    const std::string expected = words("one1_10.dcm: its Pixel Data are ", voxels.size(), " bytes");
+    EXPECT_NE(told.find(expected), std::string::npos) << told;
   }
   for (const double off : { 0.3, -10.0, 30.0 }) // [mm] within the plane; a pixel has 0.8
   {
@@ -316,17 +314,19 @@ TEST_F(Dicom, OneImageOfAnotherLengthOrPlaceIsNamed)
   }
 }
 
-// as of a patient who got up between
-TEST_F(Dicom, OneImageOfAnotherFrameOfReferenceIsNamed)
+// as of a patient who got up between, or of two whose files were put together
+TEST_F(Dicom, OneImageOfAnotherPatientOrFrameOfReferenceIsNamed)
 {
-  writeDicom(folder_.path(), "one", kAxial, "--write-xfer-little",
-    { .extra = "(0020,0052) UI [1.2.3.7]\n" });
-  EXPECT_EQ(refusal("one"), "taken");
-  const std::string file = (folder_.path() / "one/one1_10.dcm").string();
-  ASSERT_EQ(runCommand("dcmodify -q -nb -m '(0020,0052)=1.2.3.8' " + file).code, 0);
-  const std::string told = refusal("one");
-  EXPECT_NE(told.find("has another Frame of Reference than one1_10.dcm"), std::string::npos)
-    << told;
+  for (const std::string other : { "(0020,0052)=1.2.3.8", "(0010,0020)=B" })
+  {
+    writeDicom(folder_.path(), "one", kAxial, "--write-xfer-little",
+      { .extra = "(0020,0052) UI [1.2.3.7]\n(0010,0020) LO [A]\n" });
+    EXPECT_EQ(refusal("one"), "taken");
+    const std::filesystem::path file = folder_.path() / "one/one1_10.dcm";
+    ASSERT_EQ(runCommand("dcmodify -q -nb -m '" + other + "' " + file.string()).code, 0);
+    const char* what = other.ends_with('B') ? "of another patient than" : "another Frame of Ref";
+    EXPECT_NE(refusal("one").find(what), std::string::npos) << refusal("one");
+  }
 }
 
 // slices that are shifted along themselves
