@@ -217,8 +217,10 @@ void Window::refresh()
   if (isStale_ || !looksAlike(sample, shown_) || !looksAlike(second, other_.shown()))
   {
     const bool isOther = shown_.organ != sample.organ;
+    const bool begins = !shown_.contact.touching() && sample.contact.touching();
     shown_ = sample;
-    isOther ? showOther() : void();
+    isOther ? showPictured() : void();
+    isOther || begins ? chooseTouched() : void();
     isStale_ = false;
     chartsAreStale_ = true; // the section
     other_.show(shown_, second);

@@ -150,7 +150,7 @@ private:
   // of a scene with several organs
   void makeOrganList();
   void showOrgans();
-  void showOther();
+  void chooseTouched();
   bool useOrgans(const std::vector<OrganPlan>& organs);
   void changeOrgans(const std::vector<OrganPlan>& organs);
   void keepUndo(const std::vector<OrganPlan>& before);

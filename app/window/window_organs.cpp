@@ -111,10 +111,9 @@ void Window::showOrgans()
   showPictured();
 }
 
-// another organ is touched than before; a mouse that presses it chooses it, too
-void Window::showOther()
+// a mouse that presses an organ chooses it, too
+void Window::chooseTouched()
 {
-  showPictured();
   if (organs_ && !review_ && session_.isLed() && shown_.contact.touching())
   {
     organs_->choose(session_.recording().organName(shown_.organ));

@@ -293,8 +293,11 @@ void checkKind(const std::filesystem::path& file, const DataSet& data)
 {
   if (textOf(data, Tag(0x0008, 0x0016)) != kSegmentationClass)
   {
+    const bool isImage = data.FindDataElement(Tag(0x0028, 0x0010));
     refuse(file,
-      decimalOf(data, kFrames, 1.0) > 1.0
+      !isImage ? "no image, by its Modality " + inQuotes(textOf(data, Tag(0x0008, 0x0060))) +
+          "; of contours, save the labels that they enclose"
+        : decimalOf(data, kFrames, 1.0) > 1.0
         ? "several images in one file, and no binary segmentation; save it as .nrrd"
         : "one image of a series; give the folder that holds all of them");
   }

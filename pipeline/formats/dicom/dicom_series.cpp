@@ -39,7 +39,6 @@ const Tag kNumber(0x0020, 0x0011);
 const Tag kPosition(0x0020, 0x0032);
 const Tag kOrientation(0x0020, 0x0037);
 const Tag kFrame(0x0020, 0x0052);
-const Tag kPatient(0x0010, 0x0020);
 const Tag kSpacing(0x0028, 0x0030);
 const Tag kIntercept(0x0028, 0x1052);
 const Tag kSlope(0x0028, 0x1053);
@@ -55,6 +54,10 @@ DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
     textOf(data, Tag(0x0028, 0x0004)) == "PALETTE COLOR")
   {
     refuse(file, "has colors; give images of one value a voxel");
+  }
+  if (data.FindDataElement(Tag(0x0028, 0x3000)))
+  {
+    refuse(file, "its values go by a Modality LUT; export it with Rescale Slope and Intercept");
   }
   if (decimalOf(data, kFrames, 1.0) > 1.0)
   {
@@ -83,7 +86,7 @@ DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
     .slope = decimalOf(data, kSlope, 1.0),
     .intercept = decimalOf(data, kIntercept, 0.0),
     .frame = textOf(data, kFrame),
-    .patient = textOf(data, kPatient) };
+    .patient = textOf(data, Tag(0x0010, 0x0020)) };
   const bool isSquare = std::abs(slice.alongRow.norm() - 1.0) < kAlike &&
     std::abs(slice.alongColumn.norm() - 1.0) < kAlike &&
     std::abs(slice.alongRow.dot(slice.alongColumn)) < kAlike;

@@ -139,9 +139,13 @@ private:
         refuseHeader("its header is damaged, " + inQuotes(key) + " is no word of it");
       }
     }
-    if (!formatted_)
+    formatted_ ? void() : refuseHeader("its header names no format");
+    const auto vertex = std::ranges::find(elements_, "vertex", &Element::name);
+    for (const std::string axis : { "x", "y", "z" })
     {
-      refuseHeader("its header names no format");
+      const bool lacks = vertex != elements_.end() &&
+        std::ranges::count(vertex->properties, axis, &Property::name) == 0;
+      lacks ? refuseHeader("its vertices have no " + axis) : void();
     }
   }
 

@@ -122,6 +122,13 @@ vtkSmartPointer<vtkPolyData> readText(const std::filesystem::path& file)
     }
     if (word == "endloop")
     {
+      if (corners < 3)
+      {
+        refuse(file,
+          "its facet " + std::to_string(triangles->GetNumberOfCells() + 1) + " has " +
+            counted(static_cast<std::size_t>(corners), "vertex", "vertices") +
+            "; export the surface again");
+      }
       const vtkIdType first = points->GetNumberOfPoints() - corners;
       triangles->InsertNextCell(static_cast<int>(corners));
       for (vtkIdType k = 0; k < corners; ++k)

@@ -100,6 +100,15 @@ protected:
     QTest::mouseClick(part<QToolButton>(button), Qt::LeftButton);
   }
 
+  // its name
+  void clickOrgan(int place) const
+  {
+    auto* rows = part<QTreeWidget>("organRows");
+    const QRect row = rows->visualItemRect(rows->topLevelItem(place));
+    QTest::mouseClick(rows->viewport(), Qt::LeftButton, {},
+      { rows->columnViewportPosition(2) + 5, row.center().y() });
+  }
+
   [[nodiscard]] OrganRole role(std::size_t organ) const
   {
     return session_->organs()[organ].role;
@@ -187,6 +196,12 @@ TEST_F(OrganListTest, TheMousePressesWhatIsFeltBehindWhatIsSeenThrough)
   EXPECT_TRUE(QTest::qWaitFor([&] { return rows->topLevelItemCount() == 2; }, kPatience));
   EXPECT_EQ(rows->topLevelItem(1)->text(rows->columnCount() - 1), "ball");
   EXPECT_FALSE(rows->isColumnHidden(rows->columnCount() - 1));
+
+  clickOrgan(0);
+  EXPECT_EQ(part<QAbstractSpinBox>("young")->text(), "6 kPa");
+  EXPECT_EQ(pressedOrgan(), "ball") << "again";
+  EXPECT_EQ(part<QAbstractSpinBox>("young")->text(), "30 kPa");
+  EXPECT_EQ(window_->findChild<OrganList*>()->chosen(), 1U);
 }
 
 TEST_F(OrganListTest, TheEyeHidesAnOrganAndUndoBringsItBack)
@@ -215,10 +230,7 @@ TEST_F(OrganListTest, OneOrganAtLeastStaysPressed)
 TEST_F(OrganListTest, EachOrganHasATissueWhichThePanelShowsAndEdits)
 {
   choose("organRole1", "Pressed");
-  auto* rows = part<QTreeWidget>("organRows");
-  const QRect second = rows->visualItemRect(rows->topLevelItem(1));
-  QTest::mouseClick(rows->viewport(), Qt::LeftButton, {},
-    { rows->columnViewportPosition(2) + 5, second.center().y() });
+  clickOrgan(1);
   EXPECT_EQ(part<QAbstractSpinBox>("young")->text(), "30 kPa");
   type("young", "12");
   EXPECT_EQ(session_->organs()[1].press.tissue.young, 12.0_kPa);

@@ -1,7 +1,9 @@
 #include "haptics/error.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/support/dicom_segmentation.h"
+#include "tests/support/dicom_series.h"
 
+#include <fstream>
 #include <gtest/gtest.h>
 
 namespace palp::test
@@ -127,6 +129,30 @@ TEST_F(DicomSegments, WithoutANameAreNamedByTheirNumber)
   ASSERT_EQ(found.organs.size(), 2U);
   EXPECT_EQ(found.organs[0].name, "segment " + found.organs[0].label);
   EXPECT_EQ(found.organs[1].name, kBalls[1].name);
+}
+
+// contours of a plan of radiotherapy
+TEST_F(DicomSegments, AFileThatHoldsNoImageIsNamedByItsModality)
+{
+  const std::string text = (folder_.path() / "plan.txt").string();
+  const std::filesystem::path file = folder_.path() / "plan.dcm";
+  std::ofstream(text) << "(0008,0016) UI [1.2.840.10008.5.1.4.1.1.481.3]\n"
+                         "(0008,0018) UI [1.2.3]\n(0008,0060) CS [RTSTRUCT]\n";
+  ASSERT_EQ(runCommand("dump2dcm -q " + text + ' ' + file.string()).code, 0);
+  EXPECT_NE(refusal(file).find("no image, by its Modality 'RTSTRUCT'"), std::string::npos)
+    << refusal(file);
+}
+
+// which would be read as if they were Hounsfield units
+TEST_F(DicomSegments, ASeriesWhoseValuesGoByATableIsRefused)
+{
+  const DicomGrid grid{ 16, 16, 4, { -20.0, -20.0, 300.0 }, Eigen::Vector3d::UnitX(),
+    Eigen::Vector3d::UnitY(), 2.5, 2.5, 8.0 };
+  writeDicom(folder_.path(), "table", grid, "--write-xfer-little",
+    { .extra = "(0028,3000) SQ\n(fffe,e000) na\n(0028,3002) US 2\\0\\16\n(0028,3004) LO [HU]\n"
+               "(0028,3006) US 0\\2000\n(fffe,e00d) na\n(fffe,e0dd) na\n" });
+  const std::string told = refusal(folder_.path() / "table");
+  EXPECT_NE(told.find("its values go by a Modality LUT"), std::string::npos) << told;
 }
 
 } // namespace

@@ -35,6 +35,13 @@ std::vector<BadFile> badFiles()
   std::string negative = kPly;
   negative.replace(negative.find("3 1 2 3"), 7, "3 1 -2 3");
 
+  std::string facetOfTwo = kStl;
+  facetOfTwo.replace(facetOfTwo.rfind("vertex"), 6, "vertx");
+  std::string lessThanNone = kOff;
+  lessThanNone.replace(lessThanNone.find("3 1 2 3"), 1, "-3");
+  std::string flatPly = kPly;
+  flatPly.replace(flatPly.find("float y"), 7, "float v");
+
   std::string moreInPly = kPly;
   moreInPly.replace(moreInPly.find("element face 4"), 14, "element face 3");
   std::string moreInOff = kOff;
@@ -46,6 +53,9 @@ std::vector<BadFile> badFiles()
     { "more.ply", moreInPly, ErrorCode::BadFile, "goes on behind all that its header counts" },
     { "more.off", moreInOff, ErrorCode::BadFile, "goes on behind the 3 faces" },
     { "more.stl", moreInStl, ErrorCode::BadFile, "2 triangles where its header counts 1" },
+    { "two.stl", facetOfTwo, ErrorCode::BadFile, "its facet 4 has 2 vertices" },
+    { "less.off", lessThanNone, ErrorCode::BadFile, "a face has -3 corners" },
+    { "flat.ply", flatPly, ErrorCode::BadFile, "its vertices have no y" },
     { "empty.stl", "", ErrorCode::BadFile, "empty" },
     { "nan.stl", notANumber, ErrorCode::BadMesh, "not a usable number" },
     { "inf.obj", infinite, ErrorCode::BadMesh, "inf.obj:3: 'inf' is not a usable number" },
