@@ -168,17 +168,19 @@ ScenePlan planOf(const Phantom& phantom, const std::filesystem::path& folder)
   return plan;
 }
 
+// a part's surface has the others in it, its label has not
 std::string tableOf(const Phantom& phantom, const LabelMap& map, double voxel)
 {
   figures::Table table{ .name = "phantom",
     .caption = "Parts",
-    .columns = { "label", "name", "file", "voxels", "volume_ml" } };
+    .columns = { "label", "name", "voxels", "label_ml", "file", "surface_ml" } };
   for (std::size_t i = 0; i < phantom.parts.size(); ++i)
   {
     const PhantomPart& part = phantom.parts[i];
-    table.rows.push_back(
-      { std::to_string(i + 1), labelOf(part), part.name + ".vtp", std::to_string(map.counts[i]),
-        units::toMilliliters(static_cast<double>(map.counts[i]) * voxel * voxel * voxel) });
+    const double labeled = static_cast<double>(map.counts[i]) * voxel * voxel * voxel;
+    const double enclosed = enclosedVolume(part.surface.points, part.surface.triangles);
+    table.rows.push_back({ std::to_string(i + 1), labelOf(part), std::to_string(map.counts[i]),
+      units::toMilliliters(labeled), part.name + ".vtp", units::toMilliliters(enclosed) });
   }
   constexpr int digits = 5;
   return figures::csv(table, digits);

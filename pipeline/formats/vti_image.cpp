@@ -2,6 +2,7 @@
 
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/meshes/refuse.h"
+#include "pipeline/formats/meshes/stated_space.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/process/file_surface.h"
 
@@ -119,6 +120,13 @@ void findScalars(const std::filesystem::path& file, vtkImageData& image)
         inQuotes(names[1]) + ", and none is marked as Scalars; save the one to press");
   }
   points.SetActiveScalars(names[0].c_str());
+}
+
+// of a field array that has one; else empty
+std::string fieldWord(vtkImageData& image, const char* name)
+{
+  auto* words = vtkStringArray::SafeDownCast(image.GetFieldData()->GetAbstractArray(name));
+  return words != nullptr && words->GetNumberOfValues() == 1 ? words->GetValue(0) : vtkStdString();
 }
 
 // about the corner of the voxels, as VTK does; a negative spacing turns an axis round
@@ -240,10 +248,13 @@ PatientImage readVti(const std::filesystem::path& file)
   PatientImage result{ .image = reader->GetOutput(), .toPatient = { 0 } };
   result.toPatient[15] = 1.0;
   turn(*result.image, result);
-  if (auto* unit =
-        vtkStringArray::SafeDownCast(result.image->GetFieldData()->GetAbstractArray(kUnitArray)))
+  result.unit = fieldWord(*result.image, kUnitArray);
+  const std::string space = checkedSpace(file, fieldWord(*result.image, kSpaceArray));
+  result.space = space.empty() ? "" : "LPS";
+  if (space == "RAS")
   {
-    result.unit = unit->GetNumberOfValues() == 1 ? unit->GetValue(0) : vtkStdString();
+    std::for_each(result.toPatient, result.toPatient + 8, [](double& one) { one = -one; });
+    result.notes.emplace_back(kTurnedFromRas);
   }
   return result;
 }

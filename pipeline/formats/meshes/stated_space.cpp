@@ -74,27 +74,31 @@ void stateSpace(vtkPolyData& mesh, std::string_view header)
   mesh.GetFieldData()->AddArray(words);
 }
 
-void turnToLps(const std::filesystem::path& file, FileSurface& surface)
+std::string checkedSpace(const std::filesystem::path& file, const std::string& stated)
 {
-  const std::string given = upper(surface.space);
+  const std::string given = upper(stated);
   const std::string space = given == "RIGHT-ANTERIOR-SUPERIOR" ? "RAS"
     : given == "LEFT-POSTERIOR-SUPERIOR"                       ? "LPS"
                                                                : given;
   if (!space.empty() && space != "RAS" && space != "LPS")
   {
     refuse(file,
-      "its axes are " + inQuotes(surface.space) +
+      "its axes are " + inQuotes(stated) +
         " by its SPACE, where 3D Slicer has LPS or RAS; export it in one of them");
   }
+  return space;
+}
+
+void turnToLps(const std::filesystem::path& file, FileSurface& surface)
+{
+  const std::string space = checkedSpace(file, surface.space);
   if (space == "RAS")
   {
     for (Eigen::Vector3d& point : surface.points)
     {
       point.head<2>() *= -1.0;
     }
-    surface.notes.emplace_back(
-      "turned from axes to right, front and head (SPACE=RAS) to left, back "
-      "and head (LPS)");
+    surface.notes.emplace_back(kTurnedFromRas);
   }
   surface.space = space.empty() ? "" : "LPS";
 }

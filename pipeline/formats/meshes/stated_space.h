@@ -3,6 +3,7 @@
 #include "pipeline/process/file_surface.h"
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 class vtkPolyData;
@@ -14,8 +15,16 @@ namespace palp
 /// in the field array of that name.
 void stateSpace(vtkPolyData& mesh, std::string_view header);
 
+/// Of axes that a file states: "RAS", "LPS", or empty where it states none.
+/// @throws Error  BadFile: other axes of a patient
+[[nodiscard]] std::string checkedSpace(
+  const std::filesystem::path& file, const std::string& stated);
+
+inline constexpr const char* kTurnedFromRas =
+  "turned from axes to right, front and head (SPACE=RAS) to left, back and head (LPS)";
+
 /// Turns 3D Slicer's axes to right, front and head to those to left, back and head.
-/// @throws Error  BadFile: it states other axes of a patient
+/// @throws Error  as checkedSpace
 void turnToLps(const std::filesystem::path& file, FileSurface& surface);
 
 } // namespace palp

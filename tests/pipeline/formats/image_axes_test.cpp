@@ -1,7 +1,9 @@
 #include "tests/pipeline/formats/ball_images.h"
 
 #include <sstream>
+#include <vtkFieldData.h>
 #include <vtkMatrix3x3.h>
+#include <vtkStringArray.h>
 #include <vtkXMLImageDataWriter.h>
 
 namespace palp::test
@@ -112,6 +114,15 @@ TEST_F(ImageAxes, OfVtiTurnAboutTheFirstVoxel)
   expectBall(readSurface(write<vtkXMLImageDataWriter>("a.vti", *image), LengthUnit::Millimeter,
                { .level = 0.0 }),
     center, 1.0);
+
+  vtkNew<vtkStringArray> space; // as the field of a surface states it
+  space->SetName("SPACE");
+  space->InsertNextValue("RAS");
+  image->GetFieldData()->AddArray(space);
+  const LoadedSurface turned = readSurface(
+    write<vtkXMLImageDataWriter>("b.vti", *image), LengthUnit::Millimeter, { .level = 0.0 });
+  expectBall(turned, { -center.x(), -center.y(), center.z() }, 1.0);
+  EXPECT_EQ(turned.space, "LPS");
 }
 
 // numbers stay what they are: the file's unit is believed, another takes its place
