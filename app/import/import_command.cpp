@@ -24,6 +24,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 namespace palp
 {
@@ -130,19 +131,29 @@ std::string tableOf(const std::vector<ImportedOrgan>& organs)
   return figures::csv(table, kDigits);
 }
 
-// which the scene has by the organs' names
-void tellTissues(const std::vector<ImportedOrgan>& organs)
+// tissues, and which organs are not felt, as the scene has them by their names
+void tellLooks(const std::vector<ImportedOrgan>& organs)
 {
-  std::string told;
-  for (const ImportedOrgan& organ : organs)
+  std::vector<std::string> names(organs.size());
+  std::ranges::transform(organs, names.begin(), &ImportedOrgan::name);
+  const std::vector<OrganLook> looks = looksOf(names);
+  const auto add = [](std::string& list, const std::string& what)
+  { list.append(list.empty() ? "" : ", ").append(what); };
+  std::string tissues;
+  std::string unfelt;
+  for (std::size_t i = 0; i < looks.size(); ++i)
   {
-    if (const char* tissue = lookOf(organ.name).tissue)
-    {
-      told.append(told.empty() ? "" : ", ").append(organ.name).append(" as ").append(tissue);
-    }
+    const auto& [role, color, tissue] = looks[i];
+    tissue != nullptr ? add(tissues, names[i] + " as " + tissue) : void();
+    const std::string_view how = role;
+    how != "press" ? add(unfelt, names[i] + (how == "show" ? " (only shown)" : " (see-through)"))
+                   : void();
   }
-  tell("tissues in scene.json: " + told + (told.empty() ? "" : ", by their names; ") +
+  tell("tissues in scene.json: " + tissues + (tissues.empty() ? "" : ", by their names; ") +
     "else the default, 50 kPa");
+  unfelt.empty() ? void()
+                 : tell("not pressed in scene.json, by their names: " + unfelt +
+                     "; \"role\": \"press\" is felt");
 }
 
 FileOrgans found(const ImportOptions& options)
@@ -252,7 +263,7 @@ void runImport(const ImportOptions& options)
   {
     tell("warning: " + warning);
   }
-  tellTissues(organs);
+  tellLooks(organs);
   std::cout << tableOf(organs);
 }
 
@@ -311,15 +322,13 @@ void addImportCommand(CLI::App& app)
     [all = options.get()](const std::string& text) { all->unit = parseUnit(text); });
   addOverwrite(*command, options->overwrite);
   command->footer(
-    "Writes NAME.vtp for each organ in mm (LPS where the image says so), NAME_haptic.vtp with "
-    "fewer\n"
-    "points where it has more than 20000, scene.json, which palp scene opens, and import.json: "
-    "source\n"
-    "and hash, labels, voxels, volumes, and how far each surface is from the contour of its "
-    "voxels,\n"
-    "which cuts their corners. Surfaces are closed, also where the image ends, and bend as little "
-    "as\n"
-    "the voxels allow. Hollows of less than 100 voxels are filled, which import.json tells.\n"
+    "Writes NAME.vtp for each organ in mm (LPS where the image says so), NAME_haptic.vtp with\n"
+    "fewer points where it has more than 20000, scene.json, which palp scene opens, and\n"
+    "import.json: source and hash, labels, voxels, volumes, and how far each surface is from\n"
+    "the contour of its voxels, which cuts their corners. Surfaces are closed, also where the\n"
+    "image ends, and bend as little as the voxels allow. Hollows of less than 100 voxels are\n"
+    "filled, which import.json tells. Organs have tissue and role by their names: skin, fat and\n"
+    "body are seen through, bones and vessels only shown.\n"
     "Examples:\n"
     "  palp import abdomen.nii.gz                                list its labels\n"
     "  palp import abdomen.nii.gz --label 5,2+3 --out organs     two organs, one of two labels\n"

@@ -7,6 +7,8 @@
 #include "tests/support/csv_table.h"
 #include "tests/support/process.h"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>

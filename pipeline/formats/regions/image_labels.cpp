@@ -42,15 +42,14 @@ std::string shownName(const std::string& name)
 }
 
 // a number names the value next to it that a voxel can have, to the rounding of the scale
-bool isNamed(const Label& label, double step, const std::string& text)
+bool isOfValue(const Label& label, double step, const std::string& text)
 {
   double value = 0.0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool isNumber = failure == std::errc() && end == text.data() + text.size();
   constexpr double kRounding = 1e-15;
-  return isNumber
-    ? std::abs(label.shown - value) <= 1e-6 * std::abs(step) + kRounding * std::abs(value)
-    : lowered(label.segment.name) == lowered(text);
+  return isNumber &&
+    std::abs(label.shown - value) <= 1e-6 * std::abs(step) + kRounding * std::abs(value);
 }
 
 } // namespace
@@ -188,10 +187,16 @@ std::vector<Label> chosenLabels(const std::vector<Label>& labels,
   std::vector<Label> chosen;
   for (const std::string& word : asked)
   {
+    const auto isIts = [&](const Label& one) { return isOfValue(one, volume.slope, word); };
     const auto isExact = [&](const Label& one) { return one.segment.name == word; };
+    const bool isValue = std::ranges::any_of(labels, isIts);        // also where it is a name, too
     const bool isOne = std::ranges::count_if(labels, isExact) == 1; // whatever the case of others
     const auto isMeant = [&](const Label& one)
-    { return isOne ? isExact(one) : isNamed(one, volume.slope, word); };
+    {
+      return isValue ? isIts(one)
+        : isOne      ? isExact(one)
+                     : lowered(one.segment.name) == lowered(word);
+    };
     const auto count = std::ranges::count_if(labels, isMeant);
     if (count != 1)
     {

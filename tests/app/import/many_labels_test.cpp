@@ -2,6 +2,7 @@
 #include "tests/support/process.h"
 
 #include <cmath>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -95,6 +96,46 @@ TEST(ManyLabels, AreToldApartByTheCaseOfTheirNames)
       EXPECT_EQ(told["organs"].at(0)["voxels"], voxels) << name;
     }
   }
+}
+
+// of three labels the third is called as the value of the first
+TEST(ManyLabels, ANumberIsAValueBeforeItIsAName)
+{
+  const test::TemporaryFolder folder;
+  const auto image = test::writeLabels(folder.path() / "a.mha", 16,
+    [](int x, int y, int z)
+    {
+      const bool isIn = y > 2 && y < 13 && z > 2 && z < 13;
+      return !isIn || x < 2 || x > 13 ? 0 : x < 8 ? 1 : x < 12 ? 2 : 3;
+    });
+  const std::filesystem::path names = folder.path() / "names.json";
+  std::ofstream(names) << R"({"1": "liver", "2": "spleen", "3": "1"})";
+  for (const auto& [label, voxels] : { std::pair("liver", "600"), { "1", "600" }, { "3", "200" },
+         { "liver+spleen", "1000" }, { "spleen", "400" } })
+  {
+    const std::filesystem::path made = folder.path() / label;
+    const test::Finished finished = import(image.string() + " --names " + names.string() +
+      " --label " + label + " --out " + made.string());
+    ASSERT_EQ(finished.code, 0) << finished.err;
+    const auto told = nlohmann::json::parse(test::readAll(made / "import.json"));
+    EXPECT_EQ(std::to_string(told["organs"].at(0)["voxels"].get<int>()), voxels) << label;
+  }
+}
+
+TEST(ManyLabels, WhatIsNotFeltByItsNameIsTold)
+{
+  const test::TemporaryFolder folder;
+  const auto image = test::writeLabels(folder.path() / "a.mha", 16,
+    [](int x, int y, int z) {
+      return y < 3 || y > 12 || z < 3 || z > 12 || x < 2 ? 0 : x < 6 ? 1 : x < 10 ? 2 : 3;
+    });
+  const std::filesystem::path names = folder.path() / "names.json";
+  std::ofstream(names) << R"({"1": "skin", "2": "liver", "3": "ribs"})";
+  const test::Finished finished = import(
+    image.string() + " --names " + names.string() + " --out " + (folder.path() / "out").string());
+  EXPECT_NE(
+    finished.err.find("by their names: skin (see-through), ribs (only shown);"), std::string::npos)
+    << finished.err;
 }
 
 } // namespace
