@@ -269,9 +269,15 @@ std::vector<NamedColor> tableIn(const std::filesystem::path& file)
 std::vector<LabelName> readLabelNames(const std::filesystem::path& file)
 {
   std::vector<LabelName> names;
+  std::size_t length = 0;
   for (NamedColor& one : tableIn(file))
   {
+    length += one.label.name.size();
     names.push_back(std::move(one.label));
+  }
+  if (constexpr std::size_t kMost = 500'000; length > kMost) // another process gets them as words
+  {
+    refuse(file, "it has " + counted(names.size(), "name") + "; leave out those of other images");
   }
   if (names.empty())
   {
@@ -296,19 +302,18 @@ std::vector<std::string> valuesOfLabels(
 {
   for (std::string& label : labels)
   {
-    const auto isOf = [&](const LabelName& one) { return lowered(one.name) == lowered(label); };
-    const auto named = std::ranges::find_if(names, isOf);
-    if (named == names.end() || csvNumber(label))
-    {
-      continue;
-    }
-    if (std::ranges::count_if(names, isOf) > 1)
+    const auto isExact = [&](const LabelName& one) { return one.name == label; };
+    const bool isOne = std::ranges::count_if(names, isExact) == 1; // whatever the case of others
+    const auto isOf = [&](const LabelName& one)
+    { return isOne ? isExact(one) : lowered(one.name) == lowered(label); };
+    const auto count = csvNumber(label) ? 0 : std::ranges::count_if(names, isOf);
+    if (count > 1)
     {
       throw Error(ErrorCode::BadValue,
         "--label: " + inQuotes(label) +
           " is the name of several values in --names; give the value");
     }
-    label = shortest(named->value);
+    label = count == 1 ? shortest(std::ranges::find_if(names, isOf)->value) : label;
   }
   return labels;
 }

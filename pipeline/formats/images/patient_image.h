@@ -13,9 +13,10 @@ namespace palp
 struct Segment
 {
   std::string name;
-  double value = 1.0;  ///< of its voxels, as they are stored
-  std::string color{}; ///< #rrggbb; empty: none
-  int layer = 0;       ///< component of the voxels in which they have it: regions may overlap
+  double value = 1.0;     ///< of its voxels, as they are stored
+  std::string color{};    ///< #rrggbb; empty: none
+  int layer = 0;          ///< component of the voxels in which they have it: regions may overlap
+  bool isOfTable = false; ///< its name stands in a table alone, which may be of more than an image
 };
 
 /// A volume, what its numbers mean, and what brings its points into the patient's axes: x to the

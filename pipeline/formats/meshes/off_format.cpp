@@ -92,10 +92,7 @@ vtkSmartPointer<vtkPolyData> readOff(const std::filesystem::path& file)
   {
     next("the last face; each stands in a line of its own");
     const int corners = lines.number<int>("the number of corners of a face");
-    if (corners < 1)
-    {
-      lines.refuse("a face has " + std::to_string(corners) + " corners");
-    }
+    corners < 0 ? lines.refuse("a face has " + std::to_string(corners) + " corners") : void();
     if (corners < 3)
     {
       continue; // a point or a line

@@ -78,7 +78,7 @@ void giveNames(PatientImage& volume, std::span<const LabelName> names)
     }
     else if (label.value != 0.0) // which is no region
     {
-      volume.segments.push_back({ .name = label.name, .value = stored });
+      volume.segments.push_back({ .name = label.name, .value = stored, .isOfTable = true });
     }
   }
 }
@@ -161,7 +161,7 @@ std::string emptyInWords(const PatientImage& volume, const std::vector<Label>& l
   {
     const auto isIt = [&](const Label& label)
     { return label.segment.layer == segment.layer && label.segment.value == segment.value; };
-    if (std::ranges::none_of(labels, isIt))
+    if (!segment.isOfTable && std::ranges::none_of(labels, isIt))
     {
       names +=
         ++count > kMost ? "" : (names.empty() ? "" : ", ") + inQuotes(shownName(segment.name));

@@ -26,26 +26,17 @@ std::vector<BadFile> badFiles()
   std::mt19937 random(7);
   std::generate(garbage.begin(), garbage.end(), [&] { return static_cast<char>(random()); });
 
-  std::string notANumber = kStl;
-  notANumber.replace(notANumber.find("100"), 3, "nan");
-  std::string infinite = kObj;
-  infinite.replace(infinite.find("100"), 3, "inf");
-  std::string outOfRange = kOff;
-  outOfRange.replace(outOfRange.find("3 1 2 3"), 7, "3 1 2 9");
-  std::string negative = kPly;
-  negative.replace(negative.find("3 1 2 3"), 7, "3 1 -2 3");
-
-  std::string facetOfTwo = kStl;
-  facetOfTwo.replace(facetOfTwo.rfind("vertex"), 6, "vertx");
-  std::string lessThanNone = kOff;
-  lessThanNone.replace(lessThanNone.find("3 1 2 3"), 1, "-3");
-  std::string flatPly = kPly;
-  flatPly.replace(flatPly.find("float y"), 7, "float v");
-
-  std::string moreInPly = kPly;
-  moreInPly.replace(moreInPly.find("element face 4"), 14, "element face 3");
-  std::string moreInOff = kOff;
-  moreInOff.replace(moreInOff.find("4 4 6"), 5, "4 3 6");
+  const auto changed = [](std::string text, const std::string& from, const std::string& to)
+  { return text.replace(text.rfind(from), from.size(), to); };
+  const std::string notANumber = changed(kStl, "100", "nan");
+  const std::string infinite = changed(kObj, "v 100", "v inf");
+  const std::string outOfRange = changed(kOff, "3 1 2 3", "3 1 2 9");
+  const std::string negative = changed(kPly, "3 1 2 3", "3 1 -2 3");
+  const std::string facetOfTwo = changed(kStl, "vertex", "corner");
+  const std::string lessThanNone = changed(kOff, "3 1 2 3", "-3 1 2 3");
+  const std::string flatPly = changed(kPly, "float y", "float v");
+  const std::string moreInPly = changed(kPly, "element face 4", "element face 3");
+  const std::string moreInOff = changed(kOff, "4 4 6", "4 3 6");
   std::string moreInStl(84 + 2 * 50, '\0'); // two triangles
   moreInStl[80] = 1;
 

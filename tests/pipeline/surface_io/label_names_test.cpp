@@ -76,7 +76,21 @@ TEST_F(LabelNames, ANameOfTwoValuesIsRefused)
 {
   const std::vector<LabelName> names{ { 3.0, "lobe" }, { 7.0, "Lobe" }, { 8.0, "9" } };
   EXPECT_EQ(valuesOfLabels({ "3", "9" }, names), (std::vector<std::string>{ "3", "9" }));
-  EXPECT_THROW((void)valuesOfLabels({ "lobe" }, names), Error);
+  EXPECT_EQ(valuesOfLabels({ "Lobe", "lobe" }, names), (std::vector<std::string>{ "7", "3" }));
+  EXPECT_THROW((void)valuesOfLabels({ "LOBE" }, names), Error);
+}
+
+// the words of a command have an end
+TEST_F(LabelNames, OfAHugeTableAreRefused)
+{
+  std::string text;
+  for (int i = 1; i < 60'000; ++i)
+  {
+    text += std::to_string(i) + " region_of_an_atlas_" + std::to_string(i) + " 1 2 3 255\n";
+  }
+  EXPECT_THROW((void)readLabelNames(table(text)), Error);
+  const std::string first = text.substr(0, text.find("\n15001 ") + 1);
+  EXPECT_EQ(readLabelNames(table(first)).size(), 15'000U);
 }
 
 TEST_F(LabelNames, WhatIsNoTableIsRefusedByItsLine)
