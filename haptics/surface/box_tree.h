@@ -61,7 +61,7 @@ public:
   /// @param triangles  indices within points
   BoxTree(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles);
 
-  /// The tree of the same triangles over points that have moved a little, for a fifth of the time.
+  /// The tree of the same triangles over points that have moved a little, for a third of the time.
   /// @param points     finite [m]
   /// @param triangles  that this was built of
   [[nodiscard]] BoxTree moved(
