@@ -77,9 +77,11 @@ constexpr std::array kOthers{ std::pair{
 
 void checkThere(const std::filesystem::path& file)
 {
-  if (std::error_code none; !std::filesystem::exists(file, none))
+  if (std::error_code why; !std::filesystem::exists(file, why))
   {
-    refuse(file, "not found; check the name");
+    refuse(file,
+      why == std::errc::permission_denied ? "cannot be opened; check its permissions"
+                                          : "not found; check the name");
   }
 }
 
@@ -101,8 +103,10 @@ void checkThere(const std::filesystem::path& file)
 
 const Format& formatOf(const std::filesystem::path& file)
 {
-  if (std::error_code none; std::filesystem::is_directory(file, none))
+  if (std::error_code why; std::filesystem::is_directory(file, why))
   {
+    (void)std::filesystem::directory_iterator(file, why);
+    why ? refuse(file, "cannot be opened; check its permissions") : void();
     return kDicomFolder;
   }
   const std::string name = lowered(file.filename().string());

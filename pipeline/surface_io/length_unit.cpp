@@ -80,7 +80,7 @@ UnitChoice parseUnit(std::string_view text)
   return unit;
 }
 
-LengthUnit guessUnit(double longestSide, const std::string& file, double field)
+LengthUnit guessUnit(double longestSide, const std::string& file, double field, bool isSlicers)
 {
   std::ostringstream sizes;
   UnitChoice fitting;
@@ -94,8 +94,8 @@ LengthUnit guessUnit(double longestSide, const std::string& file, double field)
     if (whole >= kSmallestBody * (1.0 - kSlack) && side <= kLargestBody * (1.0 + kSlack) &&
       whole <= kLargestImage)
     {
-      fitting = unit;
-      ++fits;
+      fitting = isSlicers ? fitting.value_or(unit) : unit; // millimeters are the first
+      fits += isSlicers && fits > 0 ? 0 : 1;
     }
   }
   if (fits != 1)

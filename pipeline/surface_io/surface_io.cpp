@@ -254,12 +254,13 @@ LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& fi
   {
     double box[6];
     repaired.mesh->GetBounds(box);
-    unit = guessUnit(
-      std::max({ box[1] - box[0], box[3] - box[2], box[5] - box[4] }), file.string(), read.field);
+    const bool isSlicers = !read.space.empty() && read.field == 0.0;
+    unit = guessUnit(std::max({ box[1] - box[0], box[3] - box[2], box[5] - box[4] }), file.string(),
+      read.field, isSlicers);
     why = "a guess";
     warnings.push_back(std::string("the file names no unit; ") + unitName(*unit) +
-      " is the only one that gives the size of an organ or a part of one; --unit " +
-      unitName(*unit) + " confirms it");
+      (isSlicers ? " gives" : " is the only one that gives") +
+      " the size of an organ or a part of one; --unit " + unitName(*unit) + " confirms it");
   }
   LoadedSurface surface{ .mesh = scaled(*repaired.mesh, unitLength(*unit)),
     .unit = *unit,

@@ -215,10 +215,8 @@ std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder)
   std::set<std::filesystem::path> files; // in the same order everywhere
   for (const auto& entry : std::filesystem::directory_iterator(folder))
   {
-    if (entry.is_regular_file())
-    {
-      files.insert(entry.path());
-    }
+    std::error_code none; // a link may lead to itself
+    entry.is_regular_file(none) ? void(files.insert(entry.path())) : void();
   }
   std::map<std::string, DicomSeries> found;
   for (const std::filesystem::path& file : files)

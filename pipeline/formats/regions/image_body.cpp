@@ -209,6 +209,11 @@ ImageRegion regionOfBand(
     const double value = volume.slope * stored + volume.intercept;
     return value >= band[0] && value <= band[1];
   };
+  const int type = volume.image->GetScalarType();
+  if (type == VTK_FLOAT || type == VTK_DOUBLE) // of which one that is no number would be a hollow
+  {
+    checkNumbers(valuesOf(*volume.image), name);
+  }
   const VoxelBox box = boxWhere(*volume.image, isWithin);
   if (box.empty())
   {

@@ -83,7 +83,7 @@ TEST_F(Dicom, OfSeveralSeriesOneIsNamed)
   const Vector3d second = writeDicom(folder_.path(), "both", moved, "--write-xfer-little",
     { .series = "1.2.3.2", .description = "late phase" });
   (void)first;
-  write("both/README.txt", "not an image");
+  std::filesystem::create_symlink("loop.dcm", folder_.path() / "both/loop.dcm"); // no image
   EXPECT_NE(refusal("both").find("has 2 series: 1 'abdomen' (CT, 14 images of 40 x 36), 2 'late "
                                  "phase' (CT, 14 images of 40 x 36); name one as the series"),
     std::string::npos)

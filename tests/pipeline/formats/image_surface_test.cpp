@@ -282,6 +282,7 @@ TEST_F(ImageSurface, OfVoxelsThatAreNoNumbersIsRefusedByTheirNumberAndPlace)
       EXPECT_NE(refusal(file).find("no numbers (NaN or infinite): 1, the first at 3, 4, 5 "),
         std::string::npos)
         << refusal(file);
+      EXPECT_THROW((void)readFileSurface(file, { .band = { { 0.0, 99.0 } } }), Error);
     }
     *static_cast<float*>(image->GetScalarPointer(9, 4, 5)) = odd;
     EXPECT_NE(refusal(write<vtkXMLImageDataWriter>("odd.vti", *image))

@@ -64,7 +64,7 @@ TEST_F(Images, OfLongVoxelsAreOneSurfaceInEveryFormat)
     EXPECT_LT(std::sqrt(sum / static_cast<double>(organs[0].surface.points.size())), 0.35) << axis;
     for (const FileOrgan& organ : organs)
     {
-      EXPECT_EQ(organ.surface.unit, "mm"); // of an image of 60 mm, which may as well be of 600
+      EXPECT_EQ(organ.surface.unit, "mm"); // of 60 mm, which may as well be 600
       const auto warns = [](const std::string& note)
       { return note.find("3 times as long as they are wide") != note.npos; };
       EXPECT_TRUE(std::ranges::any_of(organ.surface.notes, warns)) << axis;

@@ -132,6 +132,16 @@ TEST_F(Space, OfAFileIsTurnedToLeftBackAndHead)
   }
 }
 
+// of 60 mm, which without that may as well be 600
+TEST_F(Space, AFileThatStatesItsAxesIsInMillimetersAsSlicerWritesIt)
+{
+  for (const auto& file : filesOf("LPS"))
+  {
+    EXPECT_EQ(readSurface(file).unit, LengthUnit::Millimeter) << file;
+  }
+  EXPECT_THROW((void)readSurface(writeText("plain.obj", "")), Error);
+}
+
 // mirrored against both
 TEST_F(Space, OfOtherAxesIsRefused)
 {
