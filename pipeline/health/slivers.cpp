@@ -87,14 +87,14 @@ bool mayGo(const HalfEdges& mesh, Vertex from, Vertex to, double mostOff)
 
 bool collapse(HalfEdges& mesh, Halfedge shortest, double mostOff)
 {
+  // which points were taken is marked as selected: is_collapse_ok writes the tags
   for (const Halfedge way : { shortest, mesh.opposite_halfedge_handle(shortest) })
   {
     const Vertex from = mesh.from_vertex_handle(way);
     const Vertex to = mesh.to_vertex_handle(way);
     if (mesh.status(from).selected() || mesh.status(to).selected())
     {
-      continue; // at once, one after the other, they would lead around a cylinder; tags are not
-                // free
+      continue; // at once, one after the other, they would lead around a cylinder
     }
     const bool onBorder = mesh.is_boundary(from) && !mesh.is_boundary(mesh.edge_handle(way));
     if (!onBorder && mesh.is_collapse_ok(way) && mayGo(mesh, from, to, mostOff))

@@ -11,10 +11,9 @@ namespace palp
 /// Triangles that share their corners.
 struct MergedMesh
 {
-  std::vector<Eigen::Vector3d>
-    points;                        ///< each once, in their order and single precision; all are used
-  std::vector<Triangle> triangles; ///< of three different corners
-  std::vector<int> from;           ///< of each triangle: which one of those given it was
+  std::vector<Eigen::Vector3d> points; ///< each once, in order, in single precision; all are used
+  std::vector<Triangle> triangles;     ///< of three different corners
+  std::vector<int> from;               ///< of each triangle: which one of those given it was
 };
 
 /// Merges points that coincide, and leaves out those without a triangle as well as triangles

@@ -94,8 +94,12 @@ LengthUnit guessUnit(double longestSide, const std::string& file, double field, 
     if (whole >= kSmallestBody * (1.0 - kSlack) && side <= kLargestBody * (1.0 + kSlack) &&
       whole <= kLargestImage)
     {
-      fitting = isSlicers ? fitting.value_or(unit) : unit; // millimeters are the first
-      fits += isSlicers && fits > 0 ? 0 : 1;
+      if (isSlicers && unit == LengthUnit::Millimeter)
+      {
+        return unit;
+      }
+      fitting = unit;
+      ++fits;
     }
   }
   if (fits != 1)

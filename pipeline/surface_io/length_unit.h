@@ -40,9 +40,8 @@ using UnitChoice = std::optional<LengthUnit>;
 /// @param longestSide  of the bounding box, in the unit that is sought
 /// @param file         stands before the message
 /// @param field        longest side of the image, in the same; 0: of no image
-/// @param isSlicers    a surface that states its axes as 3D Slicer does, which writes mm: that
-/// where
-///                     it is one of several
+/// @param isSlicers    a surface with the axes that 3D Slicer states, which writes mm: taken where
+///                     they fit, whatever else does
 /// @throws Error       BadValue: no unit fits, or two do; says what each would give
 [[nodiscard]] LengthUnit guessUnit(
   double longestSide, const std::string& file, double field = 0.0, bool isSlicers = false);

@@ -49,6 +49,20 @@ TEST(LengthUnit, IsRefusedWhereTwoFit)
   EXPECT_EQ(guessUnit(60.1, ""), LengthUnit::Millimeter);
 }
 
+// millimeters, but no other of several
+TEST(LengthUnit, OfASurfaceThatStatesItsAxesIsThatOf3DSlicer)
+{
+  for (const double side : { 5.0, 25.7, 60.0, 600.0 })
+  {
+    EXPECT_EQ(guessUnit(side, "", 0.0, true), LengthUnit::Millimeter) << side;
+  }
+  EXPECT_EQ(guessUnit(0.23, "", 0.0, true), LengthUnit::Meter);
+  for (const double side : { 0.5, 0.55, 700.0 }) // of cm and m, or of none
+  {
+    EXPECT_THROW((void)guessUnit(side, "", 0.0, true), Error) << side;
+  }
+}
+
 // a lesion of 4.1 mm is none of 41 mm, and a kidney of 50 mm none of 500 mm
 TEST(LengthUnit, OfARegionIsThatOfItsImage)
 {
