@@ -29,33 +29,38 @@ ImageContour contourOf(vtkImageData& image, double level)
   templates->ComputeNormalsOff();
   templates->ComputeScalarsOff();
   templates->Update();
-  return { .points = pointsOf(*templates->GetOutput()),
+  ImageContour contour{ .points = pointsOf(*templates->GetOutput()),
     .triangles = trianglesOf(*templates->GetOutput()),
     .from = {} };
+  groupByTriangles(contour.points, contour.triangles);
+  return contour;
 }
 
 void drop(ImageContour& contour, const std::vector<bool>& isKept)
 {
-  std::vector<int> number(contour.points.size(), -1);
-  std::vector<Eigen::Vector3d> points;
+  std::vector<bool> isUsed(contour.points.size(), false);
   std::vector<Triangle> triangles;
   for (std::size_t i = 0; i < contour.triangles.size(); ++i)
   {
-    if (!isKept[i])
+    if (isKept[i])
     {
-      continue;
+      const Triangle& triangle = triangles.emplace_back(contour.triangles[i]);
+      std::ranges::for_each(triangle, [&](int corner) { isUsed[at(corner)] = true; });
     }
-    Triangle& triangle = triangles.emplace_back(contour.triangles[i]);
-    for (int& corner : triangle)
+  }
+  std::vector<int> number(contour.points.size(), -1);
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < contour.points.size(); ++i)
+  {
+    if (isUsed[i])
     {
-      int& known = number[at(corner)];
-      if (known < 0)
-      {
-        known = static_cast<int>(points.size());
-        points.push_back(contour.points[at(corner)]);
-      }
-      corner = known;
+      number[i] = static_cast<int>(points.size());
+      points.push_back(contour.points[i]);
     }
+  }
+  for (Triangle& triangle : triangles)
+  {
+    std::ranges::for_each(triangle, [&](int& corner) { corner = number[at(corner)]; });
   }
   contour.points = std::move(points);
   contour.triangles = std::move(triangles);

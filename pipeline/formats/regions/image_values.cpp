@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 
 namespace palp
 {
@@ -111,12 +112,27 @@ bool fillsRegions(const VoxelLayer<Voxel>& voxels, vtkIdType row, const Occurren
     pairs += inside;
     equal += inside && voxels[i] == voxels[k];
   };
-  for (vtkIdType i = 0; i + 1 < voxels.count; ++i)
+  for (vtkIdType first = 0; first < voxels.count; first += row)
   {
-    (i + 1) % row != 0 ? compare(i, i + 1) : void();
-    i + row < voxels.count ? compare(i, i + row) : void(); // a row may have four voxels
+    const bool isLast = first + row >= voxels.count;
+    for (vtkIdType i = first; i < first + row; ++i)
+    {
+      i + 1 < first + row ? compare(i, i + 1) : void();
+      isLast ? void() : compare(i, i + row); // a row may have four voxels
+    }
   }
   return 2 * equal > pairs;
+}
+
+// at how many places two lists differ
+std::uintmax_t differing(std::span<const unsigned char> one, std::span<const unsigned char> other)
+{
+  std::uintmax_t count = 0;
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    count += one[i] != other[i];
+  }
+  return count;
 }
 
 // A scan may have air and padding that are even, but of its many values the most are not.
@@ -187,18 +203,25 @@ std::uintmax_t crossings(vtkImageData& image, double level)
 {
   std::uintmax_t crossed = 0;
   const int* size = image.GetDimensions();
-  const vtkIdType row = size[0];
-  const vtkIdType slice = row * size[1];
+  const auto row = static_cast<std::size_t>(size[0]);
+  const std::size_t slice = row * static_cast<std::size_t>(size[1]);
   withVoxels(image, 0,
     [&](const auto& voxels)
     {
-      const auto above = [&](vtkIdType i) { return static_cast<double>(voxels[i]) >= level; };
-      for (vtkIdType i = 0; i < voxels.count; ++i)
+      std::vector<unsigned char> here(slice); // which of a slice are above
+      std::vector<unsigned char> before;
+      for (vtkIdType next = 0; next < voxels.count;)
       {
-        const bool here = above(i);
-        crossed += (i + 1) % row != 0 && here != above(i + 1);
-        crossed += i % slice < slice - row && here != above(i + row);
-        crossed += i < voxels.count - slice && here != above(i + slice);
+        before.swap(here);
+        here.resize(slice);
+        std::ranges::generate(here, [&] { return static_cast<double>(voxels[next++]) >= level; });
+        const std::span all(here);
+        for (std::size_t j = 0; j < slice; j += row)
+        {
+          crossed += differing(all.subspan(j, row - 1), all.subspan(j + 1, row - 1));
+        }
+        crossed += differing(all.first(slice - row), all.last(slice - row));
+        crossed += next > static_cast<vtkIdType>(slice) ? differing(all, before) : 0;
       }
     });
   return crossed;

@@ -12,15 +12,29 @@ namespace
 using Points = std::vector<Eigen::Array4f>;
 
 // the mean of the neighbors less the point itself
-inline Eigen::Array4f laplacian(const Neighbors& neighbors, const Points& points, std::size_t i)
+template <std::size_t kCount>
+Eigen::Array4f laplacian(std::span<const int, kCount> around, const Points& points, std::size_t i)
 {
-  const std::span<const int> around = neighbors.of(i);
   Eigen::Array4f sum = Eigen::Array4f::Zero();
   for (const int neighbor : around)
   {
     sum += points[at(neighbor)];
   }
-  return sum / static_cast<float>(around.size()) - points[i];
+  return (1.0F / static_cast<float>(around.size())) * sum - points[i];
+}
+
+// of each step, how much of its way a point goes on
+std::vector<float> momenta(std::size_t steps)
+{
+  std::vector<float> all;
+  float pace = 1.0F;
+  for (std::size_t step = 0; step < steps; ++step)
+  {
+    const float faster = 0.5F * (1.0F + std::sqrt(1.0F + 4.0F * pace * pace));
+    all.push_back((pace - 1.0F) / faster);
+    pace = faster;
+  }
+  return all;
 }
 
 } // namespace
@@ -41,27 +55,23 @@ void bendLeast(
   Points ahead = from;
   Points bend(count);
   constexpr std::size_t kWork = 300'000'000; // steps of a point, for some seconds at most
-  const std::size_t steps = std::clamp<std::size_t>(kWork / count, 10, 100);
+  const std::vector<float> momentum = momenta(std::clamp<std::size_t>(kWork / count, 10, 100));
   constexpr float kStep = 0.25F; // the inverse of the largest value of the Laplacian, squared
-  float pace = 1.0F;
-  for (std::size_t step = 0; step < steps; ++step)
+  const auto slide = [&](std::size_t half, std::size_t block) // half a step
   {
-    const float faster = 0.5F * (1.0F + std::sqrt(1.0F + 4.0F * pace * pace));
-    const float momentum = (pace - 1.0F) / faster;
-    pace = faster;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      bend[i] = laplacian(neighbors, ahead, i);
-    }
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const Eigen::Array4f slope = laplacian(neighbors, bend, i);
-      const Eigen::Array4f next =
-        (ahead[i] - kStep * slope).max(from[i] - reach).min(from[i] + reach);
-      ahead[i] = next + momentum * (next - now[i]);
-      now[i] = next;
-    }
-  }
+    half % 2 == 0 ? neighbors.each(block,
+                      [&](std::size_t i, auto around) { bend[i] = laplacian(around, ahead, i); })
+                  : neighbors.each(block,
+                      [&, onward = momentum[half / 2]](std::size_t i, auto around)
+                      {
+                        const Eigen::Array4f slope = laplacian(around, bend, i);
+                        const Eigen::Array4f next =
+                          (ahead[i] - kStep * slope).max(from[i] - reach).min(from[i] + reach);
+                        ahead[i] = next + onward * (next - now[i]);
+                        now[i] = next;
+                      });
+  };
+  neighbors.inWaves(2 * momentum.size(), slide);
   for (std::size_t i = 0; i < count; ++i)
   {
     points[i] = origin + now[i].head<3>().cast<double>().matrix();

@@ -16,11 +16,18 @@ Eigen::Vector3d areaOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const
   return 0.5 * (b - a).cross(c - a);
 }
 
-// moves each piece outward evenly until it has about its volume
-void swell(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> triangles,
+// Moves each piece outward evenly until it has about its volume; false: it had.
+bool swell(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> triangles,
   std::span<const int> pieces, std::span<const PieceSize> wanted)
 {
   const std::vector<PieceSize> sizes = pieceSizes(points, triangles, pieces);
+  constexpr double kEnough = 1e-6; // of the volume
+  if (std::ranges::equal(sizes, wanted,
+        [&](const PieceSize& is, const PieceSize& asked)
+        { return std::abs(is.volume - asked.volume) <= kEnough * std::abs(asked.volume); }))
+  {
+    return false;
+  }
   std::vector<Eigen::Vector3d> outward(points.size(), Eigen::Vector3d::Zero());
   std::vector<Eigen::Vector3d> move = outward;
   for (std::size_t i = 0; i < triangles.size(); ++i)
@@ -40,6 +47,7 @@ void swell(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> trian
     const double size = outward[i].norm();
     points[i] += size > 0.0 ? (move[i] / size).eval() : Eigen::Vector3d::Zero().eval();
   }
+  return true;
 }
 
 // of each point: volume that it lost, and area
@@ -48,9 +56,9 @@ using Shares = std::vector<Eigen::Array2f>;
 // Over the neighborhood, by a random walk that stays where it is now and then, so that it has no
 // waves of two edges. The sums are the same; waves shorter than some twenty edges, as of terraces,
 // are gone.
-Shares spread(const Neighbors& neighbors, Shares now)
+Shares spread(const Neighbors& neighbors, const Shares& now)
 {
-  constexpr int kSteps = 24;
+  constexpr std::size_t kSteps = 24;
   constexpr float kSlow = 0.98F; // what a step of the walk leaves of the waves that stay
   constexpr float kStay = 0.25F;
   std::vector<float> part(now.size()); // that goes to each neighbor
@@ -58,28 +66,35 @@ Shares spread(const Neighbors& neighbors, Shares now)
   {
     part[i] = (1.0F - kStay) / static_cast<float>(neighbors.of(i).size());
   }
-  Shares before = now;
-  Shares sent(now.size());
-  float pace = 1.0F;
-  for (int step = 0; step < kSteps; ++step)
+  std::array<Shares, 2> walk{ now, now }; // after even steps, and after odd ones
+  std::array<Shares, 2> sent{ now, now }; // to each neighbor then
+  std::array<float, kSteps> pace{ 1.0F };
+  for (std::size_t step = 1; step < kSteps; ++step)
   {
-    for (std::size_t i = 0; i < now.size(); ++i)
-    {
-      sent[i] = part[i] * now[i];
-    }
-    for (std::size_t i = 0; i < now.size(); ++i)
-    {
-      Eigen::Array2f sum = kStay * now[i];
-      for (const int neighbor : neighbors.of(i))
-      {
-        sum += sent[at(neighbor)];
-      }
-      before[i] += pace * (sum - before[i]); // which is the next
-    }
-    before.swap(now);
-    pace = 1.0F / (1.0F - (step == 0 ? 0.5F : 0.25F * pace) * kSlow * kSlow);
+    pace[step] = 1.0F / (1.0F - (step == 1 ? 0.5F : 0.25F * pace[step - 1]) * kSlow * kSlow);
   }
-  return now;
+  for (std::size_t i = 0; i < now.size(); ++i)
+  {
+    sent[0][i] *= part[i];
+  }
+  neighbors.inWaves(kSteps,
+    [&](std::size_t step, std::size_t block)
+    {
+      const std::size_t even = step % 2;
+      neighbors.each(block,
+        [&](std::size_t i, auto around)
+        {
+          Eigen::Array2f sum = kStay * walk[even][i];
+          for (const int neighbor : around)
+          {
+            sum += sent[even][at(neighbor)];
+          }
+          Eigen::Array2f& next = walk[1 - even][i]; // which is that before
+          next += pace[step] * (sum - next);
+          sent[1 - even][i] = part[i] * next;
+        });
+    });
+  return walk[kSteps % 2];
 }
 
 // What the triangles at each point lost as they moved, and their area: a third of each. Simpson's
@@ -167,9 +182,8 @@ void restoreVolumes(std::vector<Eigen::Vector3d>& points, std::span<const Eigen:
     bound();
   }
   constexpr int kEvenly = 4;
-  for (int i = 0; i < kEvenly; ++i)
+  for (int i = 0; i < kEvenly && swell(points, triangles, pieces, sizes); ++i)
   {
-    swell(points, triangles, pieces, sizes);
     bound();
   }
 }
