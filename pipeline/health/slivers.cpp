@@ -7,6 +7,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace palp
@@ -26,6 +27,13 @@ using Vertex = OpenMesh::VertexHandle;
 constexpr double kTurn = 0.9; // cosine
 constexpr double kOff = 0.1;  // of a short side, by which a point may leave the triangles about it
 constexpr double kShape = 1e-4; // of the body's size, by which no shape changes
+
+// how far a point may leave the triangles about it, however long its way
+struct Off
+{
+  double least; // as files round coordinates
+  double most;
+};
 
 Eigen::Vector3d placeOf(const HalfEdges& mesh, Vertex vertex)
 {
@@ -57,7 +65,7 @@ double flatnessOf(const HalfEdges& mesh, OpenMesh::FaceHandle face)
 }
 
 // whether the triangles around a point may change, and keep their normals, when it goes to another
-bool mayGo(const HalfEdges& mesh, Vertex from, Vertex to, double mostOff)
+bool mayGo(const HalfEdges& mesh, Vertex from, Vertex to, const Off& mayBe)
 {
   const Eigen::Vector3d there = placeOf(mesh, to);
   for (const Halfedge out : mesh.voh_range(from))
@@ -76,7 +84,8 @@ bool mayGo(const HalfEdges& mesh, Vertex from, Vertex to, double mostOff)
     const Eigen::Vector3d before = normalOf(here, placeOf(mesh, b), placeOf(mesh, c));
     const Eigen::Vector3d after = normalOf(there, placeOf(mesh, b), placeOf(mesh, c));
     const double off = std::abs(before.dot(there - here));
-    if (before.dot(after) < kTurn || off > std::min(mostOff, kOff * (there - here).norm()) ||
+    if (before.dot(after) < kTurn ||
+      off > std::max(mayBe.least, std::min(mayBe.most, kOff * (there - here).norm())) ||
       mesh.status(mesh.face_handle(out)).locked())
     {
       return false;
@@ -85,7 +94,7 @@ bool mayGo(const HalfEdges& mesh, Vertex from, Vertex to, double mostOff)
   return true;
 }
 
-bool collapse(HalfEdges& mesh, Halfedge shortest, double mostOff)
+bool collapse(HalfEdges& mesh, Halfedge shortest, const Off& mayBe)
 {
   // which points were taken is marked as selected: is_collapse_ok writes the tags
   for (const Halfedge way : { shortest, mesh.opposite_halfedge_handle(shortest) })
@@ -97,7 +106,7 @@ bool collapse(HalfEdges& mesh, Halfedge shortest, double mostOff)
       continue; // at once, one after the other, they would lead around a cylinder
     }
     const bool onBorder = mesh.is_boundary(from) && !mesh.is_boundary(mesh.edge_handle(way));
-    if (!onBorder && mesh.is_collapse_ok(way) && mayGo(mesh, from, to, mostOff))
+    if (!onBorder && mesh.is_collapse_ok(way) && mayGo(mesh, from, to, mayBe))
     {
       mesh.status(to).set_selected(true);
       mesh.collapse(way);
@@ -170,7 +179,9 @@ void removeFrom(HalfEdges& mesh)
   {
     box.extend(placeOf(mesh, vertex));
   }
-  const double mostOff = kShape * box.diagonal().norm();
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const Off mayBe{ std::numeric_limits<float>::epsilon() * largest,
+    kShape * box.diagonal().norm() };
   constexpr int kPasses = 30; // one may make room for the next
   bool isDone = false;
   for (int pass = 0; pass < kPasses && !isDone; ++pass)
@@ -189,7 +200,7 @@ void removeFrom(HalfEdges& mesh)
       const auto sides = sidesOf(mesh, face);
       const bool isNeedle =
         mesh.calc_edge_length(sides[0]) < 2.0 * kSliver * mesh.calc_edge_length(sides[2]);
-      isDone = !((isNeedle && collapse(mesh, sides[0], mostOff)) || flip(mesh, sides[2])) && isDone;
+      isDone = !((isNeedle && collapse(mesh, sides[0], mayBe)) || flip(mesh, sides[2])) && isDone;
     }
   }
 }

@@ -201,17 +201,22 @@ TEST(MeshRepair, RemovesFlatTrianglesAndNeedles)
 // each of two needles has one end of its short side in the middle of an edge: that end goes
 TEST(MeshRepair, TakesAPointAwayThatCutsAnEdgeNearItsEnd)
 {
-  const Mesh sphere = makeSphere(0.06, 3);
+  Mesh sphere = makeSphere(0.06, 3);
+  for (Eigen::Vector3d& x : sphere.points) // away from the origin, as a patient's axes are
+  {
+    x = (x + Eigen::Vector3d(0.005, -0.007, 0.9)).cast<float>().cast<double>();
+  }
   const double volume = volumeOf(sphere.points, sphere.triangles);
   for (int i = 0; i < 40; ++i)
   {
     const auto [a, b, c] = sphere.triangles[at(31 * i)];
-    for (const double part : { 1e-4, 1e-3, 9e-3, 0.991, 0.999, 0.9999 })
+    for (const double part : { 1e-5, 1e-4, 1e-3, 9e-3, 0.991, 0.999, 0.9999, 0.99999 })
     {
       Mesh mesh = sphere;
       const auto m = static_cast<int>(mesh.points.size());
       mesh.points.emplace_back(
         mesh.points[at(a)] + part * (mesh.points[at(b)] - mesh.points[at(a)]));
+      mesh.points.back() = mesh.points.back().cast<float>().cast<double>(); // as files round it
       for (std::size_t k = 0; k < sphere.triangles.size(); ++k)
       {
         Triangle& one = mesh.triangles[k];
