@@ -169,8 +169,7 @@ void addCheckCommand(CLI::App& app)
   CheckOptions* all = options.get();
   CLI::App* command =
     app.add_subcommand("check", "Tell what of a surface disturbs a press, and repair what is safe");
-  options->source.addTo(*command);
-  command->get_option("FILE")->required();
+  options->source.addTo(*command, true);
   auto* repair = command->add_option("--repair", options->repaired,
     "Surface to write, .vtp, .stl, .ply or .obj in mm: merged, oriented, without slivers, parted "
     "where it is not manifold");

@@ -61,18 +61,18 @@ void addOrganFile(CLI::App& command, MeshSource& mesh)
     ->allow_extra_args(false);
 }
 
-void MeshSource::addTo(CLI::App& command)
+void MeshSource::addTo(CLI::App& command, bool isNeeded)
 {
-  addParsed(command, "FILE",
+  const std::string what =
     "Surface: STL, OBJ, PLY, OFF, VTK, VTP, VTU or MSH; image: MHA, MHD, NII, NII.GZ, NRRD (all "
-    "in LPS) or VTI; a DICOM segmentation or a folder of DICOM images (LPS); the bundled liver if "
-    "none",
-    "",
+    "in LPS) or VTI; a DICOM segmentation or a folder of DICOM images (LPS)";
+  addParsed(command, "FILE", what + (isNeeded ? "" : "; the bundled liver if none"), "",
     [this](const std::string& text)
     {
       file = text;
       bundled.clear();
-    });
+    })
+    ->required(isNeeded);
   addParsed(command, "--unit", "Unit of the coordinates in FILE: mm, cm, m or auto", "auto",
     [this](const std::string& text) { unit = parseUnit(text); })
     ->check(CLI::IsMember({ "mm", "cm", "m", "auto" }));

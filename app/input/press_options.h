@@ -45,8 +45,8 @@ struct MeshSource
   /// From the file's coordinates to the scene's [m].
   [[nodiscard]] Eigen::Isometry3d frame() const;
 
-  /// FILE and how it is read; the bundled liver without one.
-  void addTo(CLI::App& command);
+  /// FILE and how it is read; without one the bundled liver, unless it is needed.
+  void addTo(CLI::App& command, bool isNeeded = false);
 };
 
 /// The organ file of a surface, and where it rests.

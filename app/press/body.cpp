@@ -63,10 +63,14 @@ std::string describeCrossing(const Eigen::Vector3d& place)
   return note.str();
 }
 
-std::string describe(const Deviation& apart, std::size_t points)
+// size: of the surface shown, from corner to corner
+std::string describe(const Deviation& apart, std::size_t points, double size)
 {
+  constexpr double kAlike = 0.02; // what levels of one surface have is a tenth of it
+  const bool isOther = apart.rootMeanSquare > kAlike * size;
   std::ostringstream note;
-  note << "the force comes from " << points << " points, at most " << std::setprecision(2)
+  note << (isOther ? "warning: the surface to feel is no level of the one shown; " : "")
+       << "the force comes from " << points << " points, at most " << std::setprecision(2)
        << units::toMillimeters(apart.largest) << " mm (RMS "
        << units::toMillimeters(apart.rootMeanSquare) << " mm) from the surface shown";
   return note.str();
@@ -176,8 +180,8 @@ SceneBody loadParts(
   {
     const BoxTree fine(display.points, display.triangles);
     const Surface& felt = *body.haptic;
-    body.notes.push_back(
-      describe(deviation(display.points, fine, felt.points(), felt.tree()), felt.points().size()));
+    body.notes.push_back(describe(deviation(display.points, fine, felt.points(), felt.tree()),
+      felt.points().size(), boxAbout(display.points).diagonal().norm()));
   }
   return body;
 }

@@ -45,6 +45,21 @@ protected:
     return test::palp("scene " + out(name + ".json").string() + " --out " + out(name).string());
   }
 
+  // of 30 mm
+  void writeBall(const std::string& name, int splits, double left) const
+  {
+    const test::Mesh mesh = test::ball(30.0, splits);
+    std::ofstream file(out(name));
+    for (const Eigen::Vector3d& x : mesh.first)
+    {
+      file << "v " << x.x() + left << ' ' << x.y() << ' ' << x.z() << '\n';
+    }
+    for (const auto& [i, j, k] : mesh.second)
+    {
+      file << "f " << i + 1 << ' ' << j + 1 << ' ' << k + 1 << '\n';
+    }
+  }
+
   // a table without its comments
   [[nodiscard]] std::string rows(const std::string& name, const char* table = "samples.csv") const
   {
@@ -139,19 +154,8 @@ TEST_F(OrganScene, OneThatIsFarAndOneThatIsSeenThroughChangeNoByteOfTheSamples)
 // a ball of many points, to look at, and of few, to feel
 TEST_F(OrganScene, IsFeltByItsHapticLevelAndTellsHowFarThatIs)
 {
-  for (const auto& [name, splits] : { std::pair("fine.obj", 40), std::pair("few.obj", 6) })
-  {
-    const test::Mesh mesh = test::ball(30.0, splits);
-    std::ofstream file(out(name));
-    for (const Eigen::Vector3d& x : mesh.first)
-    {
-      file << "v " << x.x() - 30.0 << ' ' << x.y() << ' ' << x.z() << '\n';
-    }
-    for (const auto& [i, j, k] : mesh.second)
-    {
-      file << "f " << i + 1 << ' ' << j + 1 << ' ' << k + 1 << '\n';
-    }
-  }
+  writeBall("fine.obj", 40, -30.0);
+  writeBall("few.obj", 6, -30.0);
   const auto ball = [](const std::string& files)
   { return R"({"name": "left", "unit": "mm", )" + files + "}"; };
   const Finished both = press(ball(R"("file": "fine.obj", "haptic": "few.obj")"), "both");
@@ -161,10 +165,23 @@ TEST_F(OrganScene, IsFeltByItsHapticLevelAndTellsHowFarThatIs)
   EXPECT_EQ(rows("both"), rows("few"));
   EXPECT_NE(rows("both"), rows("fine"));
   EXPECT_NE(both.err.find("from the surface shown"), std::string::npos) << both.err;
+  EXPECT_EQ(both.err.find("warning"), std::string::npos) << both.err;
   EXPECT_GT(std::filesystem::file_size(out("both") / "deformed.vtp"),
     4 * std::filesystem::file_size(out("few") / "deformed.vtp"));
   ASSERT_EQ(test::palp("run " + out("both").string() + " --out " + out("again").string()).code, 0);
   EXPECT_EQ(rows("again"), rows("both"));
+}
+
+// which an edit of the scene may swap
+TEST_F(OrganScene, WarnsWhereTheLevelToFeelIsOfAnotherOrgan)
+{
+  writeBall("left.obj", 10, -30.0);
+  writeBall("right.obj", 10, -20.0);
+  const Finished finished = press(
+    R"({"name": "left", "unit": "mm", "file": "left.obj", "haptic": "right.obj"})", "swapped");
+  EXPECT_NE(finished.err.find("warning: the surface to feel is no level of the one shown"),
+    std::string::npos)
+    << finished.err;
 }
 
 TEST_F(OrganScene, TellsWhichOrganWasPressedAndLeavesThatDeformed)
