@@ -2,6 +2,7 @@
 
 #include "app/import/import_files.h"
 #include "app/import/organ_look.h"
+#include "app/import/organ_names.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"
 #include "app/input/quantity.h"
@@ -173,7 +174,8 @@ FileOrgans found(const ImportOptions& options)
       throw Error(ErrorCode::BadValue,
         options.image.string() + ": an image, no label map, of values from " +
           figures::textOf(organs.low, kDigits) + " to " + figures::textOf(organs.high, kDigits) +
-          "; tell what of it is the body by --threshold or --level, as in the lines above");
+          "; tell what of it is the body by --threshold or --level, as in the lines above, or by "
+          "--label where its values are labels");
     }
   }
   return organs;

@@ -11,7 +11,6 @@
 #include "pipeline/surface_io/surface_io.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <deque>
 #include <functional>
@@ -182,18 +181,6 @@ void warnOf(const Deviation& apart, const std::string& noneFelt, std::size_t cro
   }
 }
 
-// with a number behind it where it is taken
-std::string numbered(
-  const std::string& first, const std::function<bool(const std::string&)>& isTaken)
-{
-  std::string name = first;
-  for (int number = 2; isTaken(name); ++number)
-  {
-    name = first + "_" + std::to_string(number);
-  }
-  return name;
-}
-
 } // namespace
 
 ImportedOrgan importedOrgan(
@@ -254,43 +241,15 @@ ImportedOrgan importedOrgan(
   return result;
 }
 
-void nameFiles(
-  std::vector<FileOrgan>& organs, std::vector<std::string>& files, const std::string& other)
-{
-  const auto isOdd = [](unsigned char c) { return c < ' ' || c == ',' || c == '"'; };
-  const auto isPlain = [](unsigned char c)
-  { return c < 0x80 && (std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_'); };
-  for (FileOrgan& organ : organs)
-  {
-    constexpr std::size_t kLongest = 60;
-    organ.name = !organ.name.empty() ? organ.name.substr(0, kLongest)
-      : organ.label.empty()          ? other
-                                     : "label " + organ.label;
-    std::ranges::replace_if(organ.name, isOdd, '_');
-    const auto isNamed = [&](const std::string& name)
-    {
-      return std::ranges::any_of(
-        organs.data(), &organ, [&](const FileOrgan& earlier) { return earlier.name == name; });
-    };
-    std::string first = lowered(organ.name);
-    organ.name = numbered(organ.name, isNamed); // in the scene each is named once
-    std::ranges::replace_if(first, std::not_fn(isPlain), '_');
-    first.insert(0, first.starts_with('.') ? "_" : "");
-    const auto isTaken = [&](const std::string& file)
-    {
-      return std::ranges::any_of(files,
-        [&](const std::string& earlier) // their coarser levels are files of their own
-        { return earlier == file || earlier + kHaptic == file || file + kHaptic == earlier; });
-    };
-    files.push_back(numbered(first, isTaken));
-  }
-}
-
 LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked, const std::filesystem::path& image,
   std::vector<std::string>& warnings)
 {
+  const UnitChoice named = unitNamed(organs.unit);
   if (asked)
   {
+    named&&* named != *asked ? warnings.push_back(std::string("taken in ") + unitName(*asked) +
+                                 ", as asked, though its header says " + unitName(*named))
+                             : void();
     return *asked;
   }
   Eigen::AlignedBox3d box;
@@ -299,16 +258,17 @@ LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked, const std::filesys
     box.extend(organ.corners[0]).extend(organ.corners[1]);
   }
   const double size = box.sizes().maxCoeff();
-  if (const UnitChoice unit = unitNamed(organs.unit))
+  if (named)
   {
-    constexpr double kMost = 3.0; // [m] of a patient
-    if (size * unitLength(*unit) > kMost)
+    constexpr double kLeast = 1e-3; // [m] of an organ
+    constexpr double kMost = 3.0;   // of a patient
+    const double length = size * unitLength(*named);
+    if (length < kLeast || length > kMost)
     {
       warnings.push_back("by the " + organs.unit + " of its header it is " +
-        units::inMillimeters(size * unitLength(*unit)) +
-        " long; if that is wrong, give the unit by --unit");
+        units::inMillimeters(length) + " long; if that is wrong, give the unit by --unit");
     }
-    return *unit;
+    return *named;
   }
   const LengthUnit guess = guessUnit(size, image.string(), organs.organs.front().surface.field);
   warnings.push_back(std::string("the file names no unit; ") + unitName(guess) +

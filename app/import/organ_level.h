@@ -55,12 +55,6 @@ using SaveSurface = std::function<void(const std::string& behind, vtkPolyData& m
 [[nodiscard]] ImportedOrgan importedOrgan(
   FileOrgan organ, const std::filesystem::path& image, LengthUnit unit, const SaveSurface& save);
 
-/// Names that stand once in a scene, and files of their own for them: letters, digits, dots,
-/// hyphens and underscores, and a number behind one that another has.
-/// @param other  name of one that has none, nor a label
-void nameFiles(
-  std::vector<FileOrgan>& organs, std::vector<std::string>& files, const std::string& other);
-
 /// The unit of all organs: that which is asked for or stated, or the one that their common size
 /// tells.
 /// @param warnings  gets that it was guessed

@@ -2,6 +2,7 @@
 
 #include "app/import/organ_level.h"
 #include "app/import/organ_look.h"
+#include "app/import/organ_names.h"
 #include "app/input/organ_plan.h"
 #include "app/organs/organ_list.h"
 #include "app/panels/tissue_panel.h"

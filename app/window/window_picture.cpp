@@ -193,17 +193,30 @@ void Window::chooseRealism()
 void Window::tellCoarse()
 {
   const SceneBody& body = session_.body();
-  if (hasCard_ != false || coarseTold_ == body.coarse)
+  vtkSmartPointer<vtkPolyData> last;
+  vtkIdType drawn = 0;
+  vtkIdType all = 0;
+  const auto add = [&](const SceneBody& one)
+  {
+    if (one.coarse != nullptr)
+    {
+      last = one.coarse;
+      drawn += one.coarse->GetNumberOfCells();
+      all += one.display->GetNumberOfCells();
+    }
+  };
+  body.organs.empty() ? add(body) : void(std::ranges::for_each(body.organs, add));
+  if (hasCard_ != false || coarseTold_ == last)
   {
     return;
   }
-  coarseTold_ = body.coarse;
+  coarseTold_ = last;
   if (coarseTold_ != nullptr)
   {
     message_->add(
       tr("Drawn with %L1 triangles, as %L2 take long here; all of them are felt and exported")
-        .arg(body.coarse->GetNumberOfCells())
-        .arg(body.display->GetNumberOfCells()));
+        .arg(drawn)
+        .arg(all));
   }
 }
 

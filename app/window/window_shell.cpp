@@ -109,7 +109,7 @@ void Window::greet()
 {
   if (memory_.isFirstTime())
   {
-    say(tr("Drag down on the liver to press it; H shows all keys and what the mouse does"));
+    say(tr("Drag down on the organ to press it; H shows all keys and what the mouse does"));
   }
   constexpr std::string_view kWarning = "warning: ";
   QStringList warnings;

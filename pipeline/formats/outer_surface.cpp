@@ -9,10 +9,12 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <string_view>
 #include <tuple>
 #include <vector>
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
+#include <vtkCellTypes.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkGenericCell.h>
@@ -65,6 +67,10 @@ void checkCells(vtkUnstructuredGrid& grid, const std::string& name)
   for (vtkIdType i = 0; i < grid.GetNumberOfCells(); ++i)
   {
     const int kind = grid.GetCellType(i);
+    if (std::string_view(vtkCellTypes::GetClassNameFromTypeId(kind)) == "UnknownClass")
+    {
+      refuse("a cell is of kind " + std::to_string(kind) + ", which is none of VTK's");
+    }
     const vtkIdType most =
       needed.try_emplace(kind, 0).second ? needed[kind] = pointsNeeded(kind) : needed[kind];
     if (const vtkIdType size = cells->GetCellSize(i); most > 0 && size != most)

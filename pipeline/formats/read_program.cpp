@@ -6,6 +6,7 @@
 
 #include <SMP/Common/vtkSMPToolsAPI.h> // vtkSMPTools.h itself is no C++20
 #include <cstdlib>
+#include <malloc.h>
 #include <string_view>
 #include <utility>
 
@@ -55,6 +56,10 @@ void take(ImagePart& part, std::string_view key, std::string_view value)
 
 void readForAnother(int argc, char** argv, const DicomReaders& dicom)
 {
+  // what one step frees, the next takes: pages that went back to the kernel would be cleared anew
+  constexpr int kKept = 1 << 30;
+  mallopt(M_MMAP_THRESHOLD, kKept);
+  mallopt(M_TRIM_THRESHOLD, kKept);
   // the limit of time counts all threads, and one reads as fast
   vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
   const std::filesystem::path file = argc > 1 ? argv[1] : "";

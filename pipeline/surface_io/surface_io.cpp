@@ -237,11 +237,16 @@ LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& fi
   const RepairedSurface repaired =
     repair(read.points, read.triangles, file.string(), read.field > 0.0);
 
+  const UnitChoice named = unitNamed(read.unit);
   std::string why = "as asked";
+  if (unit && named && *unit != *named)
+  {
+    why.append(", though the file says ").append(unitName(*named));
+  }
   std::vector<std::string> warnings = repaired.warnings;
   if (!unit)
   {
-    unit = unitNamed(read.unit);
+    unit = named;
     why = "as the file says";
     if (!unit && !read.unit.empty())
     {

@@ -76,6 +76,7 @@ struct OddSegmentation
   bool isTurnedByFrame = false; // the orientation stands in each frame instead of once
   std::string characterSet{};   // and what the first segment is called in it
   std::string name = kBalls[0].name;
+  int empty = 0; // number of one more, without a voxel; 0: none
 };
 
 // slices without a voxel of a segment have no frame, and the frames stand in no order
@@ -120,6 +121,8 @@ inline std::filesystem::path writeSegmentation(const std::filesystem::path& fold
     segments += item(words("(0062,0004) US ", isFirst ? odd.first : ball.number,
       "\n(0062,0005) LO [", isFirst ? odd.name : ball.name, "]\n"));
   }
+  segments +=
+    odd.empty > 0 ? item(words("(0062,0004) US ", odd.empty, "\n(0062,0005) LO [Cyst]\n")) : "";
   const std::string shared = (odd.isTurnedByFrame ? "" : orientation) +
     sequence("(0028,9110)",
       item(words("(0018,0088) DS [", kStep, "]\n(0028,0030) DS [", kPixel, '\\', kPixel, "]\n")));

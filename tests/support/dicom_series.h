@@ -50,6 +50,7 @@ struct DicomHeader
   std::optional<int> without{};
   std::string photometric = "MONOCHROME2";
   double drift = 0.0; // by which each step of the second half is larger [mm]
+  double lean = 0.0;  // by which each slice is farther along the columns than the one before [mm]
 };
 
 inline std::string dicomHeader(
@@ -90,7 +91,8 @@ inline Eigen::Vector3d writeDicom(const std::filesystem::path& made, const std::
       continue;
     }
     const double drift = header.drift * std::max(0, k - grid.slices / 2);
-    const Eigen::Vector3d corner = grid.first + (k * grid.step + drift) * normal;
+    const Eigen::Vector3d corner =
+      grid.first + (k * grid.step + drift) * normal + k * header.lean * grid.alongColumn;
     std::string voxels;
     for (int j = 0; j < grid.rows; ++j)
     {

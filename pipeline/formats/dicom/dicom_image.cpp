@@ -117,13 +117,13 @@ PatientImage readDicom(const std::filesystem::path& folder, const std::string& a
 {
   std::vector<std::string> notes;
   DicomSeries series = chosenSeries(folder, asked, notes);
-  const double step = stack(folder, series);
+  const Eigen::Vector3d step = stack(folder, series);
   checkLength(folder, series);
   const DicomSlice& first = series.slices.front();
   PatientImage result{ .image = vtkSmartPointer<vtkImageData>::New(), .toPatient = {} };
   const auto count = static_cast<int>(series.slices.size());
   result.image->SetDimensions(first.columns, first.rows, count);
-  result.image->SetSpacing(first.columnSpacing, first.rowSpacing, step);
+  result.image->SetSpacing(first.columnSpacing, first.rowSpacing, step.norm());
   result.image->AllocateScalars(VTK_FLOAT, 1);
   const auto size = static_cast<std::size_t>(first.columns) * static_cast<std::size_t>(first.rows);
   auto* values = static_cast<float*>(result.image->GetScalarPointer());
@@ -136,7 +136,7 @@ PatientImage readDicom(const std::filesystem::path& folder, const std::string& a
   blameForACrash({});
 
   result.notes = std::move(notes);
-  placeInPatient(result, first.alongRow, first.alongColumn, first.position);
+  placeInPatient(result, { first.alongRow, first.alongColumn, step.normalized() }, first.position);
   result.notes.push_back("series \"" + series.description + "\" (" + series.modality + "), " +
     std::to_string(count) + " images");
   return result;

@@ -172,8 +172,9 @@ void stackFrames(
     if (!(slice < kMost) ||
       !(aside.norm() < kOff * std::min({ grid.step, grid.columnSpacing, grid.rowSpacing })))
     {
-      refuse(
-        file, "its slices are no even stack of one place; resample it, or save it as .seg.nrrd");
+      refuse(file,
+        "its slices are no even, straight stack of one place; resample it, or save it as "
+        ".seg.nrrd");
     }
     frame.slice = static_cast<int>(std::lround(slice)) + 1;
     grid.slices = std::max(grid.slices, frame.slice + 2);
@@ -271,12 +272,10 @@ std::vector<Layer> layersOf(const std::filesystem::path& file, const DataSet& da
     const std::string own = textOf(item, kCharacterSet);
     const std::string name = textOf(item, Tag(0x0062, 0x0005), own.empty() ? characterSet : own);
     const auto isOf = [&](const SegmentFrame& frame) { return frame.segment == number; };
-    if (std::ranges::any_of(frames, isOf))
-    {
-      result.segments.push_back({ .name = name.empty() ? "segment " + std::to_string(number) : name,
-        .value = static_cast<double>(number),
-        .layer = layerOf(number, frames, bits, grid.pixels(), grid, layers) });
-    }
+    const bool isThere = std::ranges::any_of(frames, isOf);
+    result.segments.push_back({ .name = name.empty() ? "segment " + std::to_string(number) : name,
+      .value = static_cast<double>(number),
+      .layer = isThere ? layerOf(number, frames, bits, grid.pixels(), grid, layers) : 0 });
   }
   const auto unlisted = std::ranges::find_if(
     frames, [&](const SegmentFrame& frame) { return !numbers.contains(frame.segment); });
@@ -342,7 +341,8 @@ PatientImage readDicomSegments(const std::filesystem::path& file)
       voxels[i * layers.size() + layer] = layers[layer][i];
     }
   }
-  placeInPatient(result, grid.alongRow, grid.alongColumn, grid.first);
+  placeInPatient(
+    result, { grid.alongRow, grid.alongColumn, grid.alongRow.cross(grid.alongColumn) }, grid.first);
   return result;
 }
 

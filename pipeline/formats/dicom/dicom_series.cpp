@@ -85,6 +85,7 @@ DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
     .rowSpacing = spacing->front(),
     .slope = decimalOf(data, kSlope, 1.0),
     .intercept = decimalOf(data, kIntercept, 0.0),
+    .isScaled = data.FindDataElement(kSlope) || data.FindDataElement(kIntercept),
     .frame = textOf(data, kFrame),
     .patient = textOf(data, Tag(0x0010, 0x0020)) };
   const bool isSquare = std::abs(slice.alongRow.norm() - 1.0) < kAlike &&
@@ -142,26 +143,21 @@ void checkAlike(const std::filesystem::path& folder, const DicomSeries& series)
       (slice.alongColumn - first.alongColumn).norm() < kAlike &&
       std::abs(slice.columnSpacing / first.columnSpacing - 1.0) < kAlike &&
       std::abs(slice.rowSpacing / first.rowSpacing - 1.0) < kAlike;
-    if (!isAlike)
-    {
-      refuse(folder,
-        nameOf(slice) + " has another size, direction or spacing than " + nameOf(first) +
-          "; keep the images of one stack in the folder");
-    }
-    const auto differ = [](const std::string& one, const std::string& other)
-    { return !one.empty() && !other.empty() && one != other; };
-    if (differ(slice.patient, first.patient))
-    {
-      refuse(folder,
-        nameOf(slice) + " is of another patient than " + nameOf(first) +
-          "; keep the images of one in the folder");
-    }
-    if (differ(slice.frame, first.frame))
-    {
-      refuse(folder,
-        nameOf(slice) + " has another Frame of Reference than " + nameOf(first) +
-          ", so their places do not go together; keep the images of one in the folder");
-    }
+    const std::string other = nameOf(first);
+    const auto hold = [&](bool holds, const std::string& fault)
+    { holds ? void() : refuse(folder, nameOf(slice) + " " + fault); };
+    hold(isAlike,
+      "has another size, direction or spacing than " + other +
+        "; keep the images of one stack in the folder");
+    hold(slice.isScaled == first.isScaled,
+      "and " + other + ": one lacks Rescale Slope and Intercept; export the series again");
+    const auto isOne = [](const std::string& one, const std::string& another)
+    { return one.empty() || another.empty() || one == another; };
+    hold(isOne(slice.patient, first.patient),
+      "is of another patient than " + other + "; keep the images of one in the folder");
+    hold(isOne(slice.frame, first.frame),
+      "has another Frame of Reference than " + other +
+        ", so their places do not go together; keep the images of one in the folder");
   }
 }
 
@@ -216,7 +212,8 @@ std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder)
   for (const auto& entry : std::filesystem::directory_iterator(folder))
   {
     std::error_code none; // a link may lead to itself
-    entry.is_regular_file(none) ? void(files.insert(entry.path())) : void();
+    const bool isMeant = entry.is_regular_file(none) && entry.path().filename() != "DICOMDIR";
+    isMeant ? void(files.insert(entry.path())) : void();
   }
   std::map<std::string, DicomSeries> found;
   for (const std::filesystem::path& file : files)
@@ -294,7 +291,7 @@ DicomSeries chosenSeries(
   return all.front();
 }
 
-double stack(const std::filesystem::path& folder, DicomSeries& series)
+Eigen::Vector3d stack(const std::filesystem::path& folder, DicomSeries& series)
 {
   checkAlike(folder, series);
   std::vector<DicomSlice>& slices = series.slices;
@@ -342,7 +339,7 @@ double stack(const std::filesystem::path& folder, DicomSeries& series)
         shortest(std::round(10.0 * tilt * 180.0 / std::numbers::pi) / 10.0) +
         " degrees; resample it to a straight grid and save that as .nrrd");
   }
-  return way.norm() / static_cast<double>(steps.size());
+  return way / static_cast<double>(steps.size());
 }
 
 } // namespace palp

@@ -21,6 +21,7 @@ struct DicomSlice
   double rowSpacing = 0.0;    ///< [mm]
   double slope = 1.0;         ///< a voxel's value is slope times what is stored, plus intercept
   double intercept = 0.0;
+  bool isScaled = false; ///< the file states these two
   std::string frame{};   ///< UID of the Frame of Reference; empty: not told
   std::string patient{}; ///< Patient ID; empty: not told
 };
@@ -53,8 +54,8 @@ struct DicomSeries
 
 /// Orders the slices from the first voxel on, so that row, column and order are right-handed.
 ///
-/// @return        from one to the next [mm]
+/// @return        from one to the next, which may lean a little [mm]
 /// @throws Error  BadFile: a tilted gantry, unlike slices, one missing, two in one place, one alone
-[[nodiscard]] double stack(const std::filesystem::path& folder, DicomSeries& series);
+[[nodiscard]] Eigen::Vector3d stack(const std::filesystem::path& folder, DicomSeries& series);
 
 } // namespace palp

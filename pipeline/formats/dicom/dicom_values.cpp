@@ -156,14 +156,15 @@ bool readWhole(gdcm::Reader& reader, const std::filesystem::path& file)
   return reader.Read() && !wasFilledUp();
 }
 
-void placeInPatient(PatientImage& image, const Eigen::Vector3d& alongRow,
-  const Eigen::Vector3d& alongColumn, const Eigen::Vector3d& first)
+void placeInPatient(
+  PatientImage& image, const std::array<Eigen::Vector3d, 3>& along, const Eigen::Vector3d& first)
 {
   Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> form(image.toPatient);
   form.setIdentity();
-  form.col(0).head<3>() = alongRow;
-  form.col(1).head<3>() = alongColumn;
-  form.col(2).head<3>() = alongRow.cross(alongColumn);
+  for (int k = 0; k < 3; ++k)
+  {
+    form.col(k).head<3>() = along[static_cast<std::size_t>(k)];
+  }
   form.col(3).head<3>() = first;
   image.unit = "mm";
   image.space = "LPS";

@@ -59,9 +59,9 @@ void listenToGdcm();
 [[nodiscard]] bool readWhole(gdcm::Reader& reader, const std::filesystem::path& file);
 
 /// Where an image of DICOM stands, whose axes and millimeters are the patient's.
-/// @param alongRow, alongColumn  unit vectors
-/// @param first                  middle of the first voxel [mm]
-void placeInPatient(PatientImage& image, const Eigen::Vector3d& alongRow,
-  const Eigen::Vector3d& alongColumn, const Eigen::Vector3d& first);
+/// @param along  rows, columns and slices, unit vectors
+/// @param first  middle of the first voxel [mm]
+void placeInPatient(
+  PatientImage& image, const std::array<Eigen::Vector3d, 3>& along, const Eigen::Vector3d& first);
 
 } // namespace palp

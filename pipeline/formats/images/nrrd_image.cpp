@@ -190,6 +190,11 @@ void place(const std::filesystem::path& file, const NrrdFields& fields, PatientI
     }
     origin = origin.empty() ? beginOf(file, fields, sides) : origin;
   }
+  if (origin.empty() && turn)
+  {
+    result.notes.emplace_back("warning: its header has no space origin; its first voxel is taken "
+                              "to be at 0, 0, 0");
+  }
   origin.resize(origin.empty() ? 3 : origin.size());
   if (axes.size() != 9 || origin.size() != 3)
   {

@@ -113,7 +113,8 @@ std::string heldInWords(std::span<const Label> held, std::span<const Label> body
   const std::size_t others = held.size() - some.size();
   return (held.size() == 1 ? "label " : "labels ") + numbers(some, ", ") +
     (others > 0 ? " and " + std::to_string(others) + " more" : "") +
-    (held.size() == 1 ? " lies in it, and is" : " lie in it, and are") +
+    (held.size() == 1 ? " meets it with most of its sides, and is"
+                      : " meet it with most of their sides, and are") +
     " left out of it like a hollow; as " + numbers(body, "+") + "+" + numbers(some, "+") +
     (others > 0 ? "+..." : "") + " they are one solid body";
 }

@@ -1,5 +1,6 @@
 #include "app/import/organ_level.h"
 #include "app/import/organ_look.h"
+#include "app/import/organ_names.h"
 #include "data/shapes.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/support/process.h"
@@ -63,6 +64,22 @@ TEST(NameFiles, CallsOrgansAsTheFileDoesWhereThoseDiffer)
   EXPECT_EQ(organs[0].name, "Liver");
   EXPECT_EQ(organs[1].name, "liver");
   EXPECT_EQ(organs[3].name, "liver_2");
+}
+
+// of letters that take two bytes each, of which none may be cut in half
+TEST(NameFiles, KeepsLettersBeyondAscii)
+{
+  std::vector<FileOrgan> organs(2);
+  organs[0].name = "Foie été";
+  for (int i = 0; i < 40; ++i)
+  {
+    organs[1].name += i == 0 ? "a" : "é";
+  }
+  std::vector<std::string> files;
+  nameFiles(organs, files, "image");
+  EXPECT_EQ(files[0], "foie_été");
+  EXPECT_EQ(organs[1].name.size(), 59U); // 29 of them and the first
+  EXPECT_EQ(organs[1].name.substr(57), "é");
 }
 
 // a label as thin as a voxel has no smooth surface that is sound

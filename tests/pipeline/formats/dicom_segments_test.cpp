@@ -66,11 +66,19 @@ TEST_F(DicomSegments, AreOrgansWhereTheirSlicesAreAlsoWhereTheyOverlap)
   }
 }
 
+TEST_F(DicomSegments, WithoutAVoxelAreTold)
+{
+  const auto file = writeSegmentation(folder_.path(), "BINARY", 0.0, { .empty = 9 });
+  const FileOrgans found = readFileOrgans(file, {}, false);
+  EXPECT_EQ(found.organs.size(), 2U);
+  EXPECT_EQ(std::ranges::count(found.notes, "1 segment has no voxel: 'Cyst'"), 1);
+}
+
 TEST_F(DicomSegments, ThatAreNoMasksOnAGridAreRefusedByName)
 {
   EXPECT_NE(refusal(write("FRACTIONAL")).find("a segmentation that is 'FRACTIONAL', no BINARY"),
     std::string::npos);
-  EXPECT_NE(refusal(write("BINARY", 0.7)).find("no even stack"), std::string::npos);
+  EXPECT_NE(refusal(write("BINARY", 0.7)).find("no even, straight stack"), std::string::npos);
   const auto file = write();
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 40);
   EXPECT_NE(refusal(file).find("cut off"), std::string::npos) << refusal(file);

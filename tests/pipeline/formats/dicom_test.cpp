@@ -1,5 +1,4 @@
-#include "tests/pipeline/surface_files.h"
-#include "tests/support/dicom_series.h"
+#include "tests/pipeline/formats/dicom_files.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -11,26 +10,9 @@ namespace
 
 using Eigen::Vector3d;
 
-class Dicom : public Files
+class Dicom : public DicomFiles
 {
-protected:
-  [[nodiscard]] std::string refusal(
-    const std::string& name, ImagePart part = { .level = kDicomLevel })
-  {
-    try
-    {
-      (void)readSurface(folder_.path() / name, {}, part);
-    }
-    catch (const Error& error)
-    {
-      return error.what();
-    }
-    return "taken";
-  }
 };
-
-const DicomGrid kAxial{ 40, 36, 14, { -57.3, 21.4, 803.2 }, Vector3d::UnitX(), Vector3d::UnitY(),
-  0.8, 0.9, 2.5 };
 
 DicomGrid obliqueGrid()
 {
@@ -327,23 +309,6 @@ TEST_F(Dicom, OneImageOfAnotherPatientOrFrameOfReferenceIsNamed)
     const char* what = other.ends_with('B') ? "of another patient than" : "another Frame of Ref";
     EXPECT_NE(refusal("one").find(what), std::string::npos) << refusal("one");
   }
-}
-
-// slices that are shifted along themselves
-TEST_F(Dicom, ATiltedGantryIsRefusedWithItsAngle)
-{
-  DicomGrid tilted = kAxial;
-  tilted.slices = 1;
-  for (int k = 0; k < 12; ++k)
-  {
-    tilted.first = kAxial.first + 2.5 * k * Vector3d(0.0, std::tan(12.0 * M_PI / 180.0), 1.0);
-    writeDicom(folder_.path(), "part" + std::to_string(k), tilted, "--write-xfer-little");
-    std::filesystem::create_directories(folder_.path() / "tilted");
-    std::filesystem::copy(folder_.path() / words("part", k, "/part", k, "1_3.dcm"),
-      folder_.path() / words("tilted/", k, ".dcm"));
-  }
-  EXPECT_NE(refusal("tilted").find("its gantry was tilted by 12 degrees"), std::string::npos)
-    << refusal("tilted");
 }
 
 } // namespace

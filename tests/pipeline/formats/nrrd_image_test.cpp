@@ -163,6 +163,7 @@ const std::vector<Grid> kGrids{
   { "left-posterior-superior", turned(-1.1, { 2, -1, 0.5 }, { -2.0, 2.0, 2.4 }), { 300, -50, 7 },
     { 44, 46, 40 } },
 };
+const Vector3d kMiddle = kGrids[0].axes * Vector3d(19, 21, 23) + kGrids[0].origin;
 
 TEST_F(Images, AnNrrdIsTakenToItsPlaceFromWhateverAxes)
 {
@@ -231,7 +232,7 @@ TEST_F(Images, LayersOfAnNrrdAreTakenByTheirNames)
 {
   const Grid& grid = kGrids[0];
   const Vector3d middle = grid.axes * Vector3d(19.5, 21.5, 23.5) + grid.origin;
-  const std::vector<Ball> balls{ { middle, 30.0, "Liver", 0, 1 },
+  const std::vector<Ball> balls{ { kMiddle, 30.0, "Liver", 0, 1 },
     { middle + Vector3d(8, 0, 4), 12.0, "Tumor, left", 1, 1 },
     { middle - Vector3d(0, 16, 0), 12.0, "Vein", 1, 2 } };
   const auto file = write("layers.seg.nrrd", nrrd(grid, balls, {}));
@@ -270,9 +271,8 @@ TEST_F(Images, LayersOfAnNrrdAreTakenByTheirNames)
 
 TEST_F(Images, SegmentsWithoutAVoxelAreTold)
 {
-  const Vector3d middle = kGrids[0].axes * Vector3d(19, 21, 23) + kGrids[0].origin;
   const auto file = write("empty.seg.nrrd",
-    nrrd(kGrids[0], { { middle, 30.0, "Liver", 0, 1 }, { middle, 0.0, "Cyst", 0, 2 } }, {}));
+    nrrd(kGrids[0], { { kMiddle, 30.0, "Liver", 0, 1 }, { kMiddle, 0.0, "Cyst", 0, 2 } }, {}));
   const std::string words = "1 segment has no voxel: 'Cyst'";
   const FileOrgans found = readFileOrgans(file, {}, true);
   EXPECT_EQ(std::ranges::count(found.notes, words), 1);
@@ -284,12 +284,25 @@ TEST_F(Images, SegmentsWithoutAVoxelAreTold)
   EXPECT_NE(why.find(words), std::string::npos) << why;
 }
 
+TEST_F(Images, AnNrrdInThePatientsAxesWithoutAnOriginIsWarnedOf)
+{
+  std::string bytes = nrrd(kGrids[0], { { kMiddle, 30.0, "Liver", 0, 1 } }, {});
+  const auto mentions = [&](const char* name)
+  {
+    const FileOrgans found = readFileOrgans(write(name, bytes), {}, true);
+    return std::ranges::any_of(found.notes,
+      [](const std::string& note) { return note.find("has no space origin") != note.npos; });
+  };
+  EXPECT_FALSE(mentions("with.nrrd"));
+  bytes.replace(bytes.find("space origin"), 1, "#");
+  EXPECT_TRUE(mentions("without.nrrd"));
+}
+
 // as teem writes a line break and a backslash in a key's value
 TEST_F(Images, TheNameOfASegmentOfAnNrrdMayHaveEscapes)
 {
-  const Vector3d middle = kGrids[0].axes * Vector3d(19, 21, 23) + kGrids[0].origin;
   const auto file =
-    write("escapes.seg.nrrd", nrrd(kGrids[0], { { middle, 30.0, R"(a\\n\tb)", 0, 1 } }, {}));
+    write("escapes.seg.nrrd", nrrd(kGrids[0], { { kMiddle, 30.0, R"(a\\n\tb)", 0, 1 } }, {}));
   const FileOrgans found = readFileOrgans(file, {}, true);
   ASSERT_EQ(found.organs.size(), 1U);
   EXPECT_EQ(found.organs[0].name, R"(a\n\tb)");
@@ -297,8 +310,7 @@ TEST_F(Images, TheNameOfASegmentOfAnNrrdMayHaveEscapes)
 
 TEST_F(Images, AnNrrdThatIsDamagedIsRefusedByItsFault)
 {
-  const std::vector<Ball> one{ { kGrids[0].axes * Vector3d(19, 21, 23) + kGrids[0].origin, 30.0,
-    "Liver", 0, 1 } };
+  const std::vector<Ball> one{ { kMiddle, 30.0, "Liver", 0, 1 } };
   const std::string raw = nrrd(kGrids[0], one, { "int16", false, false, true });
   const std::string gzip = nrrd(kGrids[0], one, {});
   const auto changed = [](std::string text, const std::string& from, const std::string& to)

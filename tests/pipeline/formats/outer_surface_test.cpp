@@ -186,7 +186,8 @@ TEST_F(SurfaceFile, OfCellsWithTooManyOrTooFewPointsIsRefusedByTheirNumber)
 {
   for (const auto& [cell, words] :
     { std::pair{ Cell{ kTetrahedron, { 0, 1, 2, 3, 4 } }, "of 5 points, where its kind has 4" },
-      { Cell{ kHexahedron, { 0, 1, 2, 3 } }, "of 4 points, where its kind has 8" } })
+      { Cell{ kHexahedron, { 0, 1, 2, 3 } }, "of 4 points, where its kind has 8" },
+      { Cell{ 99, { 0, 1, 2, 3 } }, "of kind 99, which is none of VTK's" } })
   {
     const std::string refusal = refusalOf(
       write("bad.vtk", legacy(kPoints, { kTetrahedra[0], cell })), LengthUnit::Millimeter);

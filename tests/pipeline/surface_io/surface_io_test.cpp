@@ -29,8 +29,9 @@ TEST_F(SurfaceFile, ThatSaysItsUnitIsBelieved)
   EXPECT_EQ(surface.unit, LengthUnit::Millimeter);
   EXPECT_TRUE(mentions(surface, "taken in mm, as the file says"));
   EXPECT_THROW((void)readSurface(write("sphere.stl", sphere)), Error);
-  EXPECT_EQ(
-    readSurface(write("sphere.vtp", sphere), LengthUnit::Centimeter).unit, LengthUnit::Centimeter);
+  const LoadedSurface other = readSurface(write("sphere.vtp", sphere), LengthUnit::Centimeter);
+  EXPECT_EQ(other.unit, LengthUnit::Centimeter);
+  EXPECT_TRUE(mentions(other, "taken in cm, as asked, though the file says mm"));
 }
 
 TEST_F(SurfaceFile, SaysItsAxesWhereTheyAreKnown)
