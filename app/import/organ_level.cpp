@@ -247,9 +247,11 @@ LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked, const std::filesys
   const UnitChoice named = unitNamed(organs.unit);
   if (asked)
   {
-    named&&* named != *asked ? warnings.push_back(std::string("taken in ") + unitName(*asked) +
-                                 ", as asked, though its header says " + unitName(*named))
-                             : void();
+    if (named && *named != *asked)
+    {
+      warnings.push_back(std::string("taken in ") + unitName(*asked) +
+        ", as asked, though its header says " + unitName(*named));
+    }
     return *asked;
   }
   Eigen::AlignedBox3d box;

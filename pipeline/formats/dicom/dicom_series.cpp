@@ -286,7 +286,7 @@ DicomSeries chosenSeries(
   {
     throw Error(ErrorCode::BadValue,
       folder.string() + ": has " + std::to_string(volumes) + " series: " + list +
-        "; name one as the series");
+        "; name one as the series (--series)");
   }
   return all.front();
 }

@@ -175,17 +175,10 @@ ImageContour imageContour(vtkImageData& image, double level, bool isMask, std::s
     contour.enclosed += piece.volume;
     contour.largest = std::max(contour.largest, std::abs(piece.volume));
   }
-  if (isMask)
-  {
-    const Neighbors neighbors(contour.points.size(), linked.edges);
-    bendLeast(contour.points, neighbors, 0.5 * spacing);
-    restoreVolumes(contour.points, contour.from, contour.triangles, neighbors, 0.5 * spacing,
-      linked.pieces, linked.sizes);
-  }
-  else
-  {
-    smoothStairs(contour);
-  }
+  const Neighbors neighbors(contour.points.size(), linked.edges);
+  isMask ? bendLeast(contour.points, neighbors, 0.5 * spacing) : smoothStairs(contour);
+  restoreVolumes(contour.points, contour.from, contour.triangles, neighbors, 0.5 * spacing,
+    linked.pieces, linked.sizes);
   return contour;
 }
 

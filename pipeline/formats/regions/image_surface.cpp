@@ -36,7 +36,8 @@ ImageRegion levelOf(const PatientImage& volume, const ImagePart& part, const Ima
     refuseImage(name,
       "a label map, whose values have no order (" +
         labelsInWords(labelsOf(volume, values), volume) +
-        "); give one as the label, or several with commas" + (part.level ? ", not a level" : ""),
+        "); give one as the label (--label), or several with commas" +
+        (part.level ? ", not a level" : ""),
       ErrorCode::BadValue);
   }
   if (!part.level)
@@ -45,7 +46,7 @@ ImageRegion levelOf(const PatientImage& volume, const ImagePart& part, const Ima
     const double one = volume.slope * values.low + volume.intercept;
     const double other = volume.slope * values.high + volume.intercept;
     refuseImage(name,
-      "an image; name the value of the surface with a level, its values go from " +
+      "an image; name the value of the surface with a level (--level), its values go from " +
         inWords(std::min(one, other)) + " to " + inWords(std::max(one, other)),
       ErrorCode::BadValue);
   }

@@ -154,8 +154,9 @@ TEST_F(Images, TellsThatABodyIsBelowItsLevel)
 TEST_F(Images, RefusesWithTheValuesThatThereAre)
 {
   const auto mask = write<vtkMetaImageWriter>("mask.mha", *ball(true));
-  EXPECT_NE(refusal(mask, {}).find("name the value of the surface with a level, its values go from "
-                                   "0 to 1"),
+  EXPECT_NE(refusal(mask, {}).find(
+              "name the value of the surface with a level (--level), its values go from "
+              "0 to 1"),
     std::string::npos);
   EXPECT_NE(refusal(mask, { 3.0, {} }).find("no surface at level 3"), std::string::npos);
   const std::filesystem::path stl = folder_.path() / "a.stl";

@@ -8,7 +8,6 @@
 #include <sstream>
 #include <utility>
 #include <vector>
-#include <vtkXMLImageDataWriter.h>
 
 // one grid as several formats write it: what is made of it goes by its voxels alone
 
@@ -89,30 +88,6 @@ TEST_F(Images, ValuesOfALayerThatNoSegmentNamesAreBodies)
   }
   const decltype(labels) expected{ { "1liver", 16 }, { "1", 40 }, { "7", 24 } };
   EXPECT_EQ(labels, expected);
-}
-
-// of a scan as wide as a body, at its ends: nothing that smooths may draw them to its middle
-TEST_F(Images, BallsFarApartStayWhereTheyAre)
-{
-  constexpr double kRadius = 11.0; // [voxels]
-  const std::array centers{ Vector3d(15.2, 19.7, 20.4), Vector3d(404.9, 20.3, 18.8) };
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(420, 40, 40);
-  image->AllocateScalars(VTK_FLOAT, 1);
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    const Vector3d place(image->GetPoint(i));
-    image->GetPointData()->GetScalars()->SetComponent(
-      i, 0, kRadius - std::min((place - centers[0]).norm(), (place - centers[1]).norm()));
-  }
-  const auto file = write<vtkXMLImageDataWriter>("two.vti", *image);
-  const auto surface =
-    readSurface(file, LengthUnit::Millimeter, { .level = 0.0, .labels = {}, .components = 2 });
-  for (const Vector3d& point : pointsOf(*surface.mesh))
-  {
-    const Vector3d& center = centers[1e3 * point.x() < 210.0 ? 0 : 1];
-    ASSERT_NEAR((1e3 * point - center).norm(), kRadius, 0.1) << 1e3 * point.transpose();
-  }
 }
 
 } // namespace
