@@ -63,11 +63,8 @@ std::string describeCrossing(const Eigen::Vector3d& place)
   return note.str();
 }
 
-// size: of the surface shown, from corner to corner
-std::string describe(const Deviation& apart, std::size_t points, double size)
+std::string describe(const Deviation& apart, std::size_t points, bool isOther)
 {
-  constexpr double kAlike = 0.02; // what levels of one surface have is a tenth of it
-  const bool isOther = apart.rootMeanSquare > kAlike * size;
   std::ostringstream note;
   note << (isOther ? "warning: the surface to feel is no level of the one shown; " : "")
        << "the force comes from " << points << " points, at most " << std::setprecision(2)
@@ -130,6 +127,9 @@ SceneBody loadParts(
   body.sources = meshes;
   Union display;
   Union haptic;
+  // with what is felt: levels that the user names may be of two bodies
+  const bool isCompared = shown ||
+    std::ranges::any_of(meshes, [](const MeshSource& mesh) { return !mesh.haptic.empty(); });
   bool coarser = false;
   std::optional<ProgressLine> progress;
   for (const MeshSource& source : meshes)
@@ -144,8 +144,8 @@ SceneBody loadParts(
                                                     : readUnchanged(file, source.unit, source.part);
     body.unit = unitName(loaded.unit);
     body.notes.insert(body.notes.end(), loaded.notes.begin(), loaded.notes.end());
-    shown ? display.add(*loaded.mesh, source.frame()) : void();
-    coarser = coarser || felt != file;
+    coarser = coarser || (isCompared && felt != file);
+    isCompared ? display.add(*loaded.mesh, source.frame()) : void();
     haptic.add(
       felt != file ? *readUnchanged(felt, source.unit, {}).mesh : *loaded.mesh, source.frame());
     MeshFile& origin = body.files.emplace_back(hashed.get());
@@ -176,12 +176,15 @@ SceneBody loadParts(
   {
     body.display = makePolyData(display.points, display.triangles);
   }
-  if (shown && coarser)
+  if (coarser)
   {
     const BoxTree fine(display.points, display.triangles);
     const Surface& felt = *body.haptic;
-    body.notes.push_back(describe(deviation(display.points, fine, felt.points(), felt.tree()),
-      felt.points().size(), boxAbout(display.points).diagonal().norm()));
+    const Deviation apart = deviation(display.points, fine, felt.points(), felt.tree());
+    constexpr double kAlike = 0.02; // of the size; what levels of one surface have is a tenth of it
+    const bool isOther = apart.rootMeanSquare > kAlike * boxAbout(display.points).diagonal().norm();
+    shown || isOther ? body.notes.push_back(describe(apart, felt.points().size(), isOther))
+                     : void();
   }
   return body;
 }

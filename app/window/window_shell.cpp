@@ -111,13 +111,12 @@ void Window::greet()
   {
     say(tr("Drag down on the organ to press it; H shows all keys and what the mouse does"));
   }
-  constexpr std::string_view kWarning = "warning: ";
+  const QString warning = "warning: "; // behind the name of an organ
   QStringList warnings;
   for (const std::string& note : session_.body().notes)
   {
-    note.starts_with(kWarning)
-      ? void(warnings << QString::fromStdString(note.substr(kWarning.size())))
-      : void();
+    const QString text = QString::fromStdString(note);
+    text.contains(warning) ? void(warnings << QString(text).remove(warning)) : void();
   }
   warnings.empty() ? void() : message_->warn(warnings.join("; "));
 }
