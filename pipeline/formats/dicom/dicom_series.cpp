@@ -87,7 +87,8 @@ DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
     .intercept = decimalOf(data, kIntercept, 0.0),
     .isScaled = data.FindDataElement(kSlope) || data.FindDataElement(kIntercept),
     .frame = textOf(data, kFrame),
-    .patient = textOf(data, Tag(0x0010, 0x0020)) };
+    .patient = textOf(data, Tag(0x0010, 0x0020)),
+    .phase = textOf(data, Tag(0x0018, 0x0081)) + '/' + textOf(data, Tag(0x0020, 0x0100)) };
   const bool isSquare = std::abs(slice.alongRow.norm() - 1.0) < kAlike &&
     std::abs(slice.alongColumn.norm() - 1.0) < kAlike &&
     std::abs(slice.alongRow.dot(slice.alongColumn)) < kAlike;
@@ -155,6 +156,8 @@ void checkAlike(const std::filesystem::path& folder, const DicomSeries& series)
     { return one.empty() || another.empty() || one == another; };
     hold(isOne(slice.patient, first.patient),
       "is of another patient than " + other + "; keep the images of one in the folder");
+    hold(slice.phase == first.phase,
+      "is of another echo or time than " + other + "; keep the images of one in the folder");
     hold(isOne(slice.frame, first.frame),
       "has another Frame of Reference than " + other +
         ", so their places do not go together; keep the images of one in the folder");

@@ -24,6 +24,7 @@ struct DicomSlice
   bool isScaled = false; ///< the file states these two
   std::string frame{};   ///< UID of the Frame of Reference; empty: not told
   std::string patient{}; ///< Patient ID; empty: not told
+  std::string phase{};   ///< Echo Time and Temporal Position Identifier, as they stand there
 };
 
 /// The images of a folder that one SeriesInstanceUID holds together.

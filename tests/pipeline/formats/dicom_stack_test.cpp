@@ -58,6 +58,21 @@ TEST_F(DicomStack, OneImageWithoutARescaleSlopeIsNamed)
     << refusal("raw");
 }
 
+// which may stand between the others, or behind them
+TEST_F(DicomStack, OneImageOfAnotherEchoOrTimeIsNamed)
+{
+  for (const std::string other : { "(0018,0081)=80", "(0020,0100)=2" })
+  {
+    writeDicom(folder_.path(), "one", kAxial, "--write-xfer-little",
+      { .extra = "(0018,0081) DS [10]\n(0020,0100) IS [1]\n" });
+    EXPECT_EQ(refusal("one"), "taken");
+    const std::string file = (folder_.path() / "one/one1_10.dcm").string();
+    ASSERT_EQ(runCommand("dcmodify -q -nb -m '" + other + "' " + file).code, 0);
+    EXPECT_NE(refusal("one").find("is of another echo or time than"), std::string::npos)
+      << refusal("one");
+  }
+}
+
 // as every CD has it, here in a form that is no file of DICOM
 TEST_F(DicomStack, TheDirectoryOfADiscIsPassedOver)
 {
