@@ -119,6 +119,17 @@ std::shared_ptr<const ComplianceField> placedCompliance(
     table.young);
 }
 
+// how far what is felt is from what is shown; else only if they are of two bodies
+void noteDeviation(const Union& display, bool shown, SceneBody& body)
+{
+  const BoxTree fine(display.points, display.triangles);
+  const Surface& felt = *body.haptic;
+  const Deviation apart = deviation(display.points, fine, felt.points(), felt.tree());
+  constexpr double kAlike = 0.02; // of the size; what levels of one surface have is a tenth of it
+  const bool isOther = apart.rootMeanSquare > kAlike * boxAbout(display.points).diagonal().norm();
+  shown || isOther ? body.notes.push_back(describe(apart, felt.points().size(), isOther)) : void();
+}
+
 // surface: of the only mesh, where it is read already
 SceneBody loadParts(
   const std::vector<MeshSource>& meshes, bool shown, const FileSurface* surface = nullptr)
@@ -176,16 +187,7 @@ SceneBody loadParts(
   {
     body.display = makePolyData(display.points, display.triangles);
   }
-  if (coarser)
-  {
-    const BoxTree fine(display.points, display.triangles);
-    const Surface& felt = *body.haptic;
-    const Deviation apart = deviation(display.points, fine, felt.points(), felt.tree());
-    constexpr double kAlike = 0.02; // of the size; what levels of one surface have is a tenth of it
-    const bool isOther = apart.rootMeanSquare > kAlike * boxAbout(display.points).diagonal().norm();
-    shown || isOther ? body.notes.push_back(describe(apart, felt.points().size(), isOther))
-                     : void();
-  }
+  coarser ? noteDeviation(display, shown, body) : void();
   return body;
 }
 

@@ -13,8 +13,7 @@ namespace palp
 namespace
 {
 
-constexpr double kHalfAround = 0.5;    // of all directions
-constexpr double kLeastHollow = 100.0; // [voxels]
+constexpr double kHalfAround = 0.5; // of all directions
 
 // what hangs together
 struct Piece

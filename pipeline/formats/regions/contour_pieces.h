@@ -12,6 +12,8 @@
 namespace palp
 {
 
+inline constexpr double kLeastHollow = 100.0; ///< [voxels]; what is smaller is filled
+
 /// Of a closed contour, what is taken: its largest pieces, and the walls of their hollows.
 struct ContourPieces
 {

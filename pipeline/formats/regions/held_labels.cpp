@@ -1,5 +1,6 @@
 #include "pipeline/formats/regions/held_labels.h"
 
+#include "pipeline/formats/regions/contour_pieces.h"
 #include "pipeline/formats/regions/voxel_layer.h"
 
 #include <algorithm>
@@ -97,7 +98,8 @@ std::vector<Label> labelsHeld(
       const bool isOfBody = std::ranges::any_of(
         body, [&](const Label& one) { return one.segment.value == other.segment.value; });
       return other.segment.layer == first.layer && !isOfBody && other.voxels < voxels &&
-        isWithin(other.box, box) && isHeld(*volume.image, other, body);
+        static_cast<double>(other.voxels) >= kLeastHollow && isWithin(other.box, box) &&
+        isHeld(*volume.image, other, body);
     });
   return held;
 }

@@ -9,8 +9,8 @@
 namespace palp
 {
 
-/// Labels that lie in a body of others, as a tumor does in a liver: with most of their sides they
-/// meet those.
+/// Labels that lie in a body of others, as a tumor does in a liver, and are not filled: with most
+/// of their sides they meet those.
 ///
 /// @param all   of the image, the background too
 /// @param body  those of the body, in one layer
