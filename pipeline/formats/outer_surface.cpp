@@ -67,12 +67,16 @@ void checkCells(vtkUnstructuredGrid& grid, const std::string& name)
   for (vtkIdType i = 0; i < grid.GetNumberOfCells(); ++i)
   {
     const int kind = grid.GetCellType(i);
-    if (std::string_view(vtkCellTypes::GetClassNameFromTypeId(kind)) == "UnknownClass")
+    const auto [known, isNew] = needed.try_emplace(kind, 0);
+    if (isNew)
     {
-      refuse("a cell is of kind " + std::to_string(kind) + ", which is none of VTK's");
+      if (std::string_view(vtkCellTypes::GetClassNameFromTypeId(kind)) == "UnknownClass")
+      {
+        refuse("a cell is of kind " + std::to_string(kind) + ", which is none of VTK's");
+      }
+      known->second = pointsNeeded(kind);
     }
-    const vtkIdType most =
-      needed.try_emplace(kind, 0).second ? needed[kind] = pointsNeeded(kind) : needed[kind];
+    const vtkIdType most = known->second;
     if (const vtkIdType size = cells->GetCellSize(i); most > 0 && size != most)
     {
       refuse("a cell of " + std::to_string(size) + " points, where its kind has " +

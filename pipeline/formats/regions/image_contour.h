@@ -22,7 +22,8 @@ struct ImageContour
 };
 
 /// The largest connected pieces of the surface on which an image has a value, with their hollows,
-/// without the stairs of the voxels (windowed sinc, which keeps the volume; Taubin 1996).
+/// without the stairs of the voxels (windowed sinc, Taubin 1996, whose toll of the volume is given
+/// back where it was taken).
 ///
 /// Of a mask the voxels tell only that the surface passes between two of them. Of all that do, the
 /// one is taken that bends least, so that terraces of many voxels vanish, too; no point leaves the
