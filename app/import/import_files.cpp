@@ -90,10 +90,20 @@ std::vector<std::vector<std::size_t>> sharesOf(
   std::vector<std::size_t> order(organs.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return organs[i].voxels; });
-  std::vector<std::vector<std::size_t>> shares(std::min(organs.size(), kOnEach * processors));
-  for (std::size_t i = 0; i < order.size(); ++i)
+  std::uint64_t all = 0;
+  std::ranges::for_each(organs, [&](const FileOrgan& organ) { all += organ.voxels; });
+  const std::uint64_t enough = all / (kOnEach * processors);
+  std::vector<std::vector<std::size_t>> shares;
+  std::uint64_t voxels = enough; // of the last one
+  for (const std::size_t i : order)
   {
-    shares[i % shares.size()].push_back(order[i]);
+    if (voxels >= enough)
+    {
+      shares.emplace_back();
+      voxels = 0;
+    }
+    shares.back().push_back(i);
+    voxels += organs[i].voxels;
   }
   return shares;
 }

@@ -101,7 +101,7 @@ bool isNearTo(std::span<const Eigen::Vector3d> points, Coarse& level, double mos
   level.tree = BoxTree(level.mesh.points, level.mesh.triangles);
   return std::ranges::all_of(points,
     [&](const Eigen::Vector3d& point)
-    { return distanceTo(level.tree, point, 2.0 * most) <= most; });
+    { return distanceTo(level.tree, point, 2.0 * most, most) <= most; });
 }
 
 OrganLevel levelOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,

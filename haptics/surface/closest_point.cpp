@@ -119,7 +119,9 @@ struct Waiting
   float squared; // distance, at most [m^2]
 };
 
-Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& position, double reach) noexcept
+// enough: whatever is as near will do
+Closest closestFacet(
+  const BoxTree& tree, const Eigen::Vector3d& position, double reach, double enough = 0.0) noexcept
 {
   const auto nodes = tree.nodes();
   const BoxProbe probe(position);
@@ -152,7 +154,7 @@ Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& position, doubl
         stack[waiting++] = far;
       }
     }
-    if (waiting == 0)
+    if (waiting == 0 || best.squared <= enough * enough)
     {
       return best;
     }
@@ -162,9 +164,10 @@ Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& position, doubl
 
 } // namespace
 
-double distanceTo(const BoxTree& tree, const Eigen::Vector3d& position, double reach) noexcept
+double distanceTo(
+  const BoxTree& tree, const Eigen::Vector3d& position, double reach, double enough) noexcept
 {
-  return std::sqrt(closestFacet(tree, position, reach).squared);
+  return std::sqrt(closestFacet(tree, position, reach, enough).squared);
 }
 
 ClosestPoint findClosestPoint(

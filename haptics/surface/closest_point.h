@@ -29,9 +29,11 @@ struct ClosestPoint
 
 /// Distance to the nearest of the triangles, whatever side of them a place is on; the reach where
 /// none is nearer [m].
-/// @param reach  as above
-/// @realtime     pure; no allocation, no lock, no exception
+/// @param reach   as above
+/// @param enough  where a triangle is as near, the distance of any such is told, which is quicker
+///                [m]
+/// @realtime      pure; no allocation, no lock, no exception
 [[nodiscard]] double distanceTo(
-  const BoxTree& tree, const Eigen::Vector3d& position, double reach) noexcept;
+  const BoxTree& tree, const Eigen::Vector3d& position, double reach, double enough = 0.0) noexcept;
 
 } // namespace palp

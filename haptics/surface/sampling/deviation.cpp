@@ -32,20 +32,29 @@ std::vector<Eigen::Vector3d> usedPoints(const Surface& surface)
 std::pair<double, double> distances(std::span<const Eigen::Vector3d> from, const BoxTree& to,
   double most, std::span<const Eigen::Vector3d> pairs)
 {
+  constexpr std::size_t kMany = 1 << 16; // points tell the mean of all to some thousandths
+  const std::size_t oneOf = 1 + from.size() / kMany;
   constexpr double kAbove = 1.0 + 1e-9; // rounding
   double largest = 0.0;
   double sum = 0.0;
-  double reach = std::numeric_limits<double>::infinity();
+  double summed = 0.0;
   for (std::size_t i = 0; i < from.size() && largest <= most; ++i)
   {
-    reach = i < pairs.size() ? std::min(reach, kAbove * (pairs[i] - from[i]).norm()) : reach;
-    const double distance = distanceTo(to, from[i], reach);
-    // a step away it is at most a step more, which is quick where points follow one another
-    reach = i + 1 < from.size() ? kAbove * (distance + (from[i + 1] - from[i]).norm()) : reach;
-    largest = std::max(largest, distance);
-    sum += distance * distance;
+    const double reach = i < pairs.size() ? kAbove * (pairs[i] - from[i]).norm()
+                                          : std::numeric_limits<double>::infinity();
+    if (i % oneOf == 0)
+    {
+      const double distance = distanceTo(to, from[i], reach);
+      largest = std::max(largest, distance);
+      sum += distance * distance;
+      summed += 1.0;
+    }
+    else if (reach > largest)
+    {
+      largest = std::max(largest, distanceTo(to, from[i], reach, largest));
+    }
   }
-  return { largest, sum };
+  return { largest, summed > 0.0 ? sum / summed * static_cast<double>(from.size()) : 0.0 };
 }
 
 } // namespace

@@ -11,10 +11,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <vtkFlyingEdges3D.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
-#include <vtkSynchronizedTemplates3D.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
 namespace palp
@@ -24,14 +24,14 @@ namespace
 
 ImageContour contourOf(vtkImageData& image, double level)
 {
-  vtkNew<vtkSynchronizedTemplates3D> templates; // starts no thread, unlike its newer kin
-  templates->SetInputData(&image);
-  templates->SetValue(0, level);
-  templates->ComputeNormalsOff();
-  templates->ComputeScalarsOff();
-  templates->Update();
-  ImageContour contour{ .points = pointsOf(*templates->GetOutput()),
-    .triangles = trianglesOf(*templates->GetOutput()),
+  vtkNew<vtkFlyingEdges3D> flying; // starts no thread where VTK is told so
+  flying->SetInputData(&image);
+  flying->SetValue(0, level);
+  flying->ComputeNormalsOff();
+  flying->ComputeScalarsOff();
+  flying->Update();
+  ImageContour contour{ .points = pointsOf(*flying->GetOutput()),
+    .triangles = trianglesOf(*flying->GetOutput()),
     .from = {} };
   groupByTriangles(contour.points, contour.triangles);
   return contour;

@@ -54,9 +54,11 @@ void bendLeast(
   Points now = from;
   Points ahead = from;
   Points bend(count);
-  constexpr std::size_t kWork = 300'000'000; // steps of a point, for some seconds at most
-  const std::vector<float> momentum = momenta(std::clamp<std::size_t>(kWork / count, 10, 100));
-  constexpr float kStep = 0.25F; // the inverse of the largest value of the Laplacian, squared
+  constexpr std::size_t kWork = 225'000'000; // steps of a point, for some seconds at most
+  const std::vector<float> momentum = momenta(std::clamp<std::size_t>(kWork / count, 8, 75));
+  // The inverse of the Laplacian's largest eigenvalue, squared: as each edge is one of two
+  // triangles, and no (a + b + c)^2 of their corners is negative, it is 3/2.
+  constexpr float kStep = 4.0F / 9.0F;
   const auto slide = [&](std::size_t half, std::size_t block) // half a step
   {
     half % 2 == 0 ? neighbors.each(block,

@@ -16,9 +16,27 @@ Eigen::Vector3d areaOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const
   return 0.5 * (b - a).cross(c - a);
 }
 
+// Which way each point goes outward, of length 1, or 0 where its triangles are none.
+std::vector<Eigen::Vector3d> outwardOf(
+  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
+{
+  std::vector<Eigen::Vector3d> outward(points.size(), Eigen::Vector3d::Zero());
+  for (const auto& [a, b, c] : triangles)
+  {
+    const Eigen::Vector3d vector = areaOf(points[at(a)], points[at(b)], points[at(c)]);
+    for (const int corner : { a, b, c })
+    {
+      outward[at(corner)] += vector;
+    }
+  }
+  std::ranges::for_each(outward, [](Eigen::Vector3d& way) { way.normalize(); });
+  return outward;
+}
+
 // Moves each piece outward evenly until it has about its volume; false: it had.
-bool swell(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> triangles,
-  std::span<const int> pieces, std::span<const PieceSize> wanted)
+bool swell(std::vector<Eigen::Vector3d>& points, std::span<const Eigen::Vector3d> outward,
+  std::span<const Triangle> triangles, std::span<const int> pieces,
+  std::span<const PieceSize> wanted)
 {
   const std::vector<PieceSize> sizes = pieceSizes(points, triangles, pieces);
   constexpr double kEnough = 1e-6; // of the volume
@@ -28,24 +46,16 @@ bool swell(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> trian
   {
     return false;
   }
-  std::vector<Eigen::Vector3d> outward(points.size(), Eigen::Vector3d::Zero());
-  std::vector<Eigen::Vector3d> move = outward;
+  std::vector<double> move(points.size(), 0.0);
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     const auto piece = at(pieces[i]);
-    const auto& [a, b, c] = triangles[i];
-    const Eigen::Vector3d vector = areaOf(points[at(a)], points[at(b)], points[at(c)]);
     const double lack = (wanted[piece].volume - sizes[piece].volume) / sizes[piece].area;
-    for (const int corner : triangles[i])
-    {
-      outward[at(corner)] += vector;
-      move[at(corner)] += lack * vector;
-    }
+    std::ranges::for_each(triangles[i], [&](int corner) { move[at(corner)] = lack; });
   }
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const double size = outward[i].norm();
-    points[i] += size > 0.0 ? (move[i] / size).eval() : Eigen::Vector3d::Zero().eval();
+    points[i] += move[i] * outward[i];
   }
   return true;
 }
@@ -53,14 +63,13 @@ bool swell(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> trian
 // of each point: volume that it lost, and area
 using Shares = std::vector<Eigen::Array2f>;
 
-// Over the neighborhood, by a random walk that stays where it is now and then, so that it has no
-// waves of two edges. The sums are the same; waves shorter than some twenty edges, as of terraces,
-// are gone.
+// Over the neighborhood, by a random walk. The sums are the same; waves shorter than some twenty
+// edges, as of terraces, are gone.
 Shares spread(const Neighbors& neighbors, const Shares& now)
 {
-  constexpr std::size_t kSteps = 24;
-  constexpr float kSlow = 0.98F; // what a step of the walk leaves of the waves that stay
-  constexpr float kStay = 0.25F;
+  constexpr std::size_t kSteps = 19;
+  constexpr float kSlow = 0.98F;       // what a step of the walk leaves of the waves that stay
+  constexpr float kStay = -0.2F;       // from -1/2, as bendLeast tells, to -0.8, which is soon gone
   std::vector<float> part(now.size()); // that goes to each neighbor
   for (std::size_t i = 0; i < now.size(); ++i)
   {
@@ -125,24 +134,15 @@ Shares lost(std::span<const Eigen::Vector3d> from, std::span<const Eigen::Vector
 }
 
 // moves each point outward by what its neighborhood lost
-void swellLocally(std::vector<Eigen::Vector3d>& points, std::span<const Eigen::Vector3d> from,
-  std::span<const Triangle> triangles, const Neighbors& neighbors)
+void swellLocally(std::vector<Eigen::Vector3d>& points, std::span<const Eigen::Vector3d> outward,
+  std::span<const Eigen::Vector3d> from, std::span<const Triangle> triangles,
+  const Neighbors& neighbors)
 {
   const Shares shares = spread(neighbors, lost(from, points, triangles));
-  std::vector<Eigen::Vector3d> outward(points.size(), Eigen::Vector3d::Zero());
-  for (const auto& [a, b, c] : triangles)
-  {
-    const Eigen::Vector3d vector = areaOf(points[at(a)], points[at(b)], points[at(c)]);
-    for (const int corner : { a, b, c })
-    {
-      outward[at(corner)] += vector;
-    }
-  }
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const auto& [volume, area] = std::pair<double, double>(shares[i][0], shares[i][1]);
-    points[i] += area > 0.0 ? (volume / area * outward[i].normalized()).eval()
-                            : Eigen::Vector3d::Zero().eval();
+    points[i] += area > 0.0 ? (volume / area * outward[i]).eval() : Eigen::Vector3d::Zero().eval();
   }
 }
 
@@ -175,14 +175,15 @@ void restoreVolumes(std::vector<Eigen::Vector3d>& points, std::span<const Eigen:
         points[i].array().max(from[i].array() - most).min(from[i].array() + most).matrix();
     }
   };
+  const std::vector<Eigen::Vector3d> outward = outwardOf(points, triangles); // also a little later
   constexpr int kLocally = 2;
   for (int i = 0; i < kLocally; ++i)
   {
-    swellLocally(points, from, triangles, neighbors);
+    swellLocally(points, outward, from, triangles, neighbors);
     bound();
   }
   constexpr int kEvenly = 4;
-  for (int i = 0; i < kEvenly && swell(points, triangles, pieces, sizes); ++i)
+  for (int i = 0; i < kEvenly && swell(points, outward, triangles, pieces, sizes); ++i)
   {
     bound();
   }
