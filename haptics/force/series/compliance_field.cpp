@@ -11,13 +11,12 @@ namespace palp
 namespace
 {
 
-constexpr double kReach = 2.3;     // spacings
-constexpr float kNearest = 0.25F;  // to an edge that a place tells of, by its own distance
-constexpr float kRound = 0.15F;    // likewise, within which it comes to that
-constexpr float kFacing = 0.7F;    // cosine of normals from which on a place counts in full
-constexpr float kAskew = 0.3F;     // likewise, to which it is beyond an edge and does not count
-constexpr double kMostLean = 1.5;  // of that of the wedge that places tell together
-constexpr double kRoundLean = 0.3; // of it, over which it comes to that
+constexpr double kReach = 2.3;    // spacings
+constexpr float kNearest = 0.25F; // to an edge that a place tells of, by its own distance
+constexpr float kRound = 0.15F;   // likewise, within which it comes to that
+constexpr float kClose = 1.5F;  // spacings to an edge, within which W/D changes from place to place
+constexpr float kFacing = 0.7F; // cosine of normals from which on a place counts in full
+constexpr float kAskew = 0.3F;  // likewise, to which it is beyond an edge and does not count
 
 std::uint64_t keyOf(const std::array<int, 3>& cell)
 {
@@ -89,18 +88,19 @@ ComplianceField::ComplianceField(std::span<const PlacedCompliance> places, doubl
   for (const PlacedCompliance& place : places)
   {
     const double slope = place.slope.norm();
+    const bool isBeside = place.edge > 0.0;
+    const double distance = isBeside ? 1.0 / place.edge : 0.0;
     const Eigen::Vector3d away = -place.edge * place.slope.normalized();
-    const double byEdge = place.edge > 0.0 ? 2.0 * slope / place.edge : 0.0;
-    const Eigen::Vector3d gradient = (place.edge > 0.0 ? 0.0 : 2.0) * place.slope;
+    const Eigen::Vector3d gradient = (isBeside ? 0.0 : 2.0) * place.slope;
     places_.push_back({ .position = place.position.cast<float>(),
       .normal = place.normal.cast<float>(),
       .gradient = gradient.cast<float>(),
       .edge = away.cast<float>(),
-      .rest = static_cast<float>(place.constant - byEdge),
-      .byEdge = static_cast<float>(byEdge),
-      .slope = static_cast<float>(slope),
+      .rest = static_cast<float>(place.constant - 2.0 * slope * distance),
+      .slope = static_cast<float>(isBeside ? 0.0 : slope),
       .bend = static_cast<float>(place.bend),
-      .beside = static_cast<float>(place.edge),
+      .wedge = static_cast<float>(2.0 * slope * distance * distance),
+      .beside = static_cast<float>(distance),
       .doubtful = place.trust == ComplianceTrust::Known ? 0.0F : 1.0F });
   }
   sortIntoCells();
@@ -173,6 +173,16 @@ inline ComplianceField::Weight ComplianceField::weightOf(
   return { cube * rest * (4.0F * t + 1.0F), -20.0F * cube * perReach_ * perReach_ };
 }
 
+float ComplianceField::constantOf(const Place& place) noexcept
+{
+  return place.beside > 0.0F ? place.rest + place.wedge / place.beside : place.rest;
+}
+
+double ComplianceField::constantOf(const Eigen::Matrix<double, kTold, 1>& told) noexcept
+{
+  return told[kPart] > 0.0 ? told[kRest] + told[kWedge] * told[kPart] / told[kBeside] : told[kRest];
+}
+
 // what blending evens out is added beforehand, so that it goes through the places' values
 void ComplianceField::sharpen()
 {
@@ -185,10 +195,14 @@ void ComplianceField::sharpen()
     {
       const Place& one = wanted[i];
       const auto values = blendAt(one.position.cast<double>(), one.normal.cast<double>()).values;
-      next[i].rest += one.rest + one.byEdge - static_cast<float>(values[kConstant]);
-      next[i].slope *= ratioOf(one.slope, values[kSlope] + values[kEdgeSlope]);
+      const auto beside = static_cast<float>(values[kPart]);
+      const bool isClose = values[kBeside] < kClose * cell_ * values[kPart];
+      next[i].rest += isClose ? one.rest - static_cast<float>(values[kRest])
+                              : constantOf(one) - static_cast<float>(constantOf(values));
+      next[i].slope *= ratioOf((1.0F - beside) * one.slope, values[kSlope]);
       next[i].bend += one.bend - static_cast<float>(values[kBend]);
-      next[i].beside *= ratioOf(one.beside, values[kBeside]);
+      next[i].wedge *= ratioOf(beside * one.wedge, values[kWedge]);
+      next[i].beside *= ratioOf(beside * one.beside, values[kBeside]);
     }
     places_ = std::move(next);
   }
@@ -219,22 +233,17 @@ ComplianceField::Blend ComplianceField::blendAt(
     if (place.beside > 0.0F)
     {
       const auto [nearer, turn] = nearerOf(place.edge, away);
-      told[kByEdge] = place.byEdge * nearer;
-      told[kEdgeSlope] = place.slope * nearer * nearer;
-      told[kBeside] = place.beside * nearer;
+      told[kRest] = place.rest;
+      told[kWedge] = place.wedge;
+      told[kBeside] = place.beside / nearer;
       told[kPart] = 1.0F;
-      told[kConstant] = place.rest + told[kByEdge];
-      const Eigen::Vector3f turned = weight.value * turn;
-      sums.col(kConstant).tail<3>() += told[kByEdge] * turned;
-      sums.col(kByEdge).tail<3>() += told[kByEdge] * turned;
-      sums.col(kEdgeSlope).tail<3>() += 2.0F * told[kEdgeSlope] * turned;
-      sums.col(kBeside).tail<3>() += told[kBeside] * turned;
+      sums.col(kBeside).tail<3>() -= told[kBeside] * weight.value * turn;
     }
     else
     {
-      told[kConstant] = place.rest + place.gradient.dot(away);
+      told[kRest] = place.rest + place.gradient.dot(away);
       told[kSlope] = place.slope;
-      sums.col(kConstant).tail<3>() += weight.value * place.gradient;
+      sums.col(kRest).tail<3>() += weight.value * place.gradient;
     }
     Eigen::Vector4f how;
     how << weight.value, weight.slope * away;
@@ -257,38 +266,46 @@ ComplianceField::Blend ComplianceField::blendAt(
   return blend;
 }
 
-// places about which edges lie differently would lean more together than any wedge
-ComplianceField::Lean ComplianceField::Blend::lean() const noexcept
+// of the wedge that places beside an edge tell together: W/D, its slope W/(2 D^2), and 1/D by its
+// part of all slope
+void ComplianceField::addEdge(Local& local, const Blend& blend) noexcept
 {
-  Lean edge{ values[kEdgeSlope], gradients.col(kEdgeSlope) };
-  const double most = kMostLean * values[kByEdge] * values[kBeside] / (2.0 * values[kPart]);
-  if (values[kPart] > 0.0 && edge.value > (1.0 - kRoundLean) * most)
+  const double wedge = blend.values[kWedge];
+  const double part = blend.values[kPart];
+  const double nearness = part / blend.values[kBeside];
+  const Eigen::Vector3d nearer = nearness *
+    (blend.gradients.col(kPart) / part - blend.gradients.col(kBeside) / blend.values[kBeside]);
+  const Eigen::Vector3d sharper = blend.gradients.col(kWedge);
+  const double lean = 0.5 * wedge * nearness * nearness;
+  const Eigen::Vector3d leaning = nearness * (0.5 * nearness * sharper + wedge * nearer);
+  local.body.constant += wedge * nearness;
+  local.constant += nearness * sharper + wedge * nearer;
+  local.body.slope += lean;
+  local.slope += leaning;
+  const double share = lean > 0.0 ? lean / local.body.slope : 0.0;
+  local.body.edge = share * nearness;
+  local.edge = share * nearer;
+  if (share > 0.0)
   {
-    const double over = edge.value / most;
-    const Sloped part = smoothMin({ over, 1.0 }, { 1.0 }, kRoundLean);
-    const Eigen::Vector3d change = most *
-      (gradients.col(kByEdge) / values[kByEdge] + gradients.col(kBeside) / values[kBeside] -
-        gradients.col(kPart) / values[kPart]);
-    edge = { part.value * most,
-      part.slope * edge.change + (part.value - part.slope * over) * change };
+    local.edge += nearness / local.body.slope * (leaning - share * local.slope);
   }
-  return { values[kSlope] + edge.value, gradients.col(kSlope) + edge.change };
 }
 
 ComplianceField::Local ComplianceField::at(
   const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double height) const noexcept
 {
   const Blend blend = blendAt(center, normal);
-  const double oneFace = oneFaceOf(blend.outward);
-  const Lean lean = blend.lean();
   const auto& values = blend.values;
   const auto& gradients = blend.gradients;
-  Local local{ .body = { values[kConstant], oneFace * lean.value, values[kBend], values[kBeside] },
-    .constant = gradients.col(kConstant),
-    .slope = oneFace * lean.change,
+  Local local{ .body = { values[kRest], values[kSlope], values[kBend], 0.0 },
+    .constant = gradients.col(kRest),
+    .slope = gradients.col(kSlope),
     .bend = gradients.col(kBend),
-    .edge = gradients.col(kBeside),
     .doubtful = blend.doubtful };
+  values[kPart] > 0.0 ? addEdge(local, blend) : void();
+  const double oneFace = oneFaceOf(blend.outward);
+  local.body.slope *= oneFace;
+  local.slope *= oneFace;
   if (height > 0.0 && local.body.edge > 0.0)
   {
     bringNearer(local, height * (normal - blend.outward.normalized()));

@@ -125,30 +125,23 @@ private:
     Eigen::Vector3f normal;
     Eigen::Vector3f gradient; // of the constant, where no edge is near
     Eigen::Vector3f edge;     // away from one, over the distance to it [1/m]
-    float rest;               // of the constant
-    float byEdge;             // likewise
-    float slope;
+    float rest;               // of the constant, without an edge
+    float slope;              // likewise
     float bend;
-    float beside; // 1/D [1/m]
+    float wedge;  // times D, what an edge adds to the constant
+    float beside; // D [m]; 0: no edge is near
     float doubtful;
   };
 
   enum Told
   {
-    kConstant,
-    kSlope, // of places where no edge is near
+    kRest,  // of the constant, without edges
+    kSlope, // likewise
     kBend,
-    kByEdge, // of the constant
-    kEdgeSlope,
-    kBeside, // 1/D
+    kWedge,  // times D, what edges add to the constant
+    kBeside, // D times the next
     kPart,   // of places beside an edge
     kTold
-  };
-
-  struct Lean
-  {
-    double value;
-    Eigen::Vector3d change;
   };
 
   // what places tell together
@@ -158,8 +151,6 @@ private:
     Eigen::Matrix<double, 3, kTold> gradients = Eigen::Matrix<double, 3, kTold>::Zero();
     Eigen::Vector3d outward = Eigen::Vector3d::Zero(); // mean of their normals
     double doubtful = 1.0;
-
-    [[nodiscard]] Lean lean() const noexcept;
   };
 
   struct Weight
@@ -179,6 +170,9 @@ private:
     const Place& place, const Eigen::Vector3f& away, const Eigen::Vector3f& normal) const noexcept;
   [[nodiscard]] Blend blendAt(
     const Eigen::Vector3d& center, const Eigen::Vector3d& normal) const noexcept;
+  [[nodiscard]] static float constantOf(const Place& place) noexcept;
+  [[nodiscard]] static double constantOf(const Eigen::Matrix<double, kTold, 1>& told) noexcept;
+  static void addEdge(Local& local, const Blend& blend) noexcept;
   void sortIntoCells();
   template <typename Visit>
   void forCellsWithin(const Eigen::Vector3d& position, const Visit& visit); // reach of there
