@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace palp
@@ -11,8 +12,15 @@ namespace
 
 constexpr double kTouching = 1e-6; // [-] of an edge or an area: less is rounding
 
-// where the line from a to b passes through the middle of a facet
-std::optional<Eigen::Vector3d> pierced(
+// where a line passes through a facet
+struct Pierced
+{
+  Eigen::Vector3d place;
+  double above;       // of the line's begin over the facet [m]
+  unsigned int sides; // of the facet that pass through there: a bit for each; 0: its middle does
+};
+
+std::optional<Pierced> pierced(
   const Facet& facet, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
   const double above = facet.normal.dot(a - facet.corners[0]);
@@ -22,8 +30,69 @@ std::optional<Eigen::Vector3d> pierced(
   {
     return std::nullopt;
   }
-  const Eigen::Vector3d x = a + above / (above - below) * (b - a);
-  return isWithin(facet, x, kTouching) ? std::optional(x) : std::nullopt;
+  Pierced found{ .place = a + above / (above - below) * (b - a), .above = above, .sides = 0 };
+  if (!isWithin(facet, found.place, -kTouching))
+  {
+    return std::nullopt;
+  }
+  const auto& p = facet.corners;
+  const double least = kTouching * (p[1] - p[0]).cross(p[2] - p[0]).norm();
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const Eigen::Vector3d side = p[(k + 1) % 3] - p[k];
+    const bool isOn = side.cross(found.place - p[k]).dot(facet.normal) < least;
+    found.sides |= isOn ? 1U << k : 0U;
+  }
+  return found;
+}
+
+// An edge that meets a side or a corner of a triangle. It passes through the surface there where it
+// does so in one sense through all the triangles that share it, else it only touches.
+struct Touch
+{
+  std::array<int, 4> where; // points of the edge, and of the side or corner, each in order
+  bool isDown;              // through the triangle, from the edge's lower point
+  int own;                  // triangle of the edge
+  int other;
+  Eigen::Vector3d place;
+};
+
+Touch touchOf(const Pierced& found, std::array<int, 2> edge, const Triangle& other)
+{
+  const auto [low, high] = std::minmax(edge[0], edge[1]);
+  const auto k = static_cast<std::size_t>(std::countr_zero(found.sides));
+  std::array ends{ other[k], other[(k + 1) % 3] };
+  if (std::popcount(found.sides) > 1) // the corner that both have
+  {
+    ends.fill(found.sides == 5U ? other[0] : ends[1]);
+  }
+  return { .where = { low, high, std::min(ends[0], ends[1]), std::max(ends[0], ends[1]) },
+    .isDown = (found.above > 0.0) == (edge[0] == low),
+    .own = -1,
+    .other = -1,
+    .place = found.place };
+}
+
+// visits those that pass through, while that asks for more
+template <typename Visit>
+void forPassing(std::vector<Touch>& touches, Visit visit)
+{
+  std::ranges::sort(touches, {}, &Touch::where);
+  for (auto first = touches.begin(); first != touches.end();)
+  {
+    const auto last = std::find_if(
+      first, touches.end(), [&](const Touch& one) { return one.where != first->where; });
+    const bool isPassing =
+      std::all_of(first, last, [&](const Touch& one) { return one.isDown == first->isDown; }) &&
+      std::any_of(first, last, [&](const Touch& one) { return one.other != first->other; });
+    for (; first != last; ++first)
+    {
+      if (isPassing && !visit(first->own, first->other, first->place))
+      {
+        return;
+      }
+    }
+  }
 }
 
 // the box of a facet, made once for all that it is compared with
@@ -102,6 +171,7 @@ bool forPairs(const BoxTree& tree, int one, int other, Visit& visit)
 template <typename Visit>
 void forCrossings(const BoxTree& tree, std::span<const Triangle> triangles, Visit visit)
 {
+  std::vector<Touch> touches;
   const auto passes = [&](int i, int j)
   {
     const Facet& facet = tree.facets()[at(i)];
@@ -113,16 +183,29 @@ void forCrossings(const BoxTree& tree, std::span<const Triangle> triangles, Visi
     for (std::size_t k = 0; k < 3 && more; ++k)
     {
       const std::size_t next = (k + 1) % 3;
-      if (!shared[k] && !shared[next])
+      if (shared[k] || shared[next])
       {
-        const auto place = pierced(tree.facets()[at(j)], facet.corners[k], facet.corners[next]);
-        more = !place || visit(tree.triangle(i), tree.triangle(j), *place);
+        continue;
+      }
+      const auto found = pierced(tree.facets()[at(j)], facet.corners[k], facet.corners[next]);
+      if (found && found->sides == 0)
+      {
+        more = visit(tree.triangle(i), tree.triangle(j), found->place);
+      }
+      else if (found)
+      {
+        touches.push_back(touchOf(*found, { own[k], own[next] }, other));
+        touches.back().own = tree.triangle(i);
+        touches.back().other = tree.triangle(j);
       }
     }
     return more;
   };
   const auto both = [&](int i, int j) { return passes(i, j) && passes(j, i); };
-  tree.empty() || forPairs(tree, 0, 0, both);
+  if (tree.empty() || forPairs(tree, 0, 0, both))
+  {
+    forPassing(touches, visit);
+  }
 }
 
 } // namespace

@@ -141,6 +141,77 @@ TEST(MeshHealth, SeesThinTriangles)
   EXPECT_EQ(health.find(Fault::Sliver)->triangles, std::vector{ 0 });
 }
 
+// Mirrored bodies meet edge to edge: a triangle passes through its mirror image where it has
+// corners on both sides of the mirror. As they lie, and turned, so that rounding differs.
+TEST(MeshHealth, FindsTheTrianglesThatMeetOthersEdgeToEdge)
+{
+  for (const double apart : { 0.02, 0.035, 0.0533 })
+  {
+    Mesh balls = makeSphere(0.03, 4);
+    const std::size_t first = balls.triangles.size();
+    const auto count = static_cast<int>(balls.points.size());
+    for (int i = 0; i < count; ++i)
+    {
+      const Vector3d x = balls.points[at(i)];
+      balls.points.emplace_back(apart - x.x(), x.y(), x.z());
+    }
+    std::set<int> expected;
+    for (std::size_t i = 0; i < first; ++i)
+    {
+      const auto [a, b, c] = balls.triangles[i];
+      balls.triangles.push_back({ count + c, count + b, count + a });
+      const auto isBehind = [&](int corner) { return balls.points[at(corner)].x() > 0.5 * apart; };
+      if (const int behind = isBehind(a) + isBehind(b) + isBehind(c); behind % 3 > 0)
+      {
+        expected.insert({ static_cast<int>(i), static_cast<int>(first + i) });
+      }
+    }
+    for (int turn = 0; turn < 8; ++turn)
+    {
+      const Eigen::Matrix3d turned =
+        Eigen::AngleAxisd(0.7 * turn, Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+      Mesh mesh = balls;
+      std::ranges::for_each(mesh.points, [&](Vector3d& x) { x = turned * x; });
+      const MeshHealth health = healthOf(mesh);
+      const Finding* crossing = health.find(Fault::SelfIntersection);
+      ASSERT_NE(crossing, nullptr) << apart << ' ' << turn;
+      EXPECT_EQ(std::set<int>(crossing->triangles.begin(), crossing->triangles.end()), expected)
+        << apart << ' ' << turn;
+    }
+  }
+}
+
+// edges that meet the diagonals of faces; and edges that touch from outside
+TEST(MeshHealth, TellsBlocksThatOverlapFromSuchThatTouch)
+{
+  for (int turn = 0; turn < 8; ++turn)
+  {
+    const Eigen::Matrix3d turned =
+      Eigen::AngleAxisd(0.9 * turn, Vector3d(3.0, 1.0, 2.0).normalized()).toRotationMatrix();
+    const auto isCrossing = [&](const Eigen::Matrix3d& second, const Vector3d& shift)
+    {
+      Mesh blocks = cube();
+      Mesh other = cube();
+      std::ranges::for_each(other.points, [&](Vector3d& x) { x = second * x; });
+      add(blocks, other, shift);
+      std::ranges::for_each(blocks.points, [&](Vector3d& x) { x = turned * x; });
+      return healthOf(blocks).find(Fault::SelfIntersection) != nullptr;
+    };
+    const Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d onEdge =
+      Eigen::AngleAxisd(0.25 * std::numbers::pi, Vector3d::UnitX()).toRotationMatrix();
+    EXPECT_TRUE(isCrossing(upright, { 0.5, 0.5, 0.5 })) << turn;
+    EXPECT_TRUE(isCrossing(upright, { 0.5, -0.5, 0.5 })) << turn;
+    EXPECT_TRUE(isCrossing(upright, { 0.5, 0.25, 0.5 })) << turn;
+    // the lower edge of the second on that of the first, across it
+    const Vector3d low = onEdge * Vector3d(0.0, 0.5, -1.0);
+    const Vector3d high = onEdge * Vector3d(0.0, -0.5, -1.0);
+    const Vector3d lowest = low.z() < high.z() ? low : high;
+    EXPECT_FALSE(isCrossing(onEdge, Vector3d(0.5, 0.0, 0.0) - lowest)) << turn;
+    EXPECT_TRUE(isCrossing(onEdge, Vector3d(0.5, 0.0, -0.01) - lowest)) << turn;
+  }
+}
+
 // two balls that pass through each other meet in a circle
 TEST(MeshHealth, FindsTheTrianglesThatPassThroughOthers)
 {
