@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <future>
 #include <utility>
@@ -34,6 +35,10 @@ std::pair<double, double> distances(std::span<const Eigen::Vector3d> from, const
 {
   constexpr std::size_t kMany = 1 << 16; // points tell the mean of all to some thousandths
   const std::size_t oneOf = 1 + from.size() / kMany;
+  // by the golden ratio, so that whatever order points have in memory, they are evenly chosen
+  constexpr std::uint32_t kTurn = 2'654'435'769;
+  const auto isChosen = [below = std::numeric_limits<std::uint32_t>::max() / oneOf](std::size_t i)
+  { return static_cast<std::uint32_t>(i) * kTurn <= below; };
   constexpr double kAbove = 1.0 + 1e-9; // rounding
   double largest = 0.0;
   double sum = 0.0;
@@ -42,7 +47,7 @@ std::pair<double, double> distances(std::span<const Eigen::Vector3d> from, const
   {
     const double reach = i < pairs.size() ? kAbove * (pairs[i] - from[i]).norm()
                                           : std::numeric_limits<double>::infinity();
-    if (i % oneOf == 0)
+    if (isChosen(i))
     {
       const double distance = distanceTo(to, from[i], reach);
       largest = std::max(largest, distance);

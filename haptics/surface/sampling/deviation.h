@@ -12,7 +12,7 @@ namespace palp
 struct Deviation
 {
   double largest = 0.0;        ///< [m]
-  double rootMeanSquare = 0.0; ///< [m], of more than 65,536 points by every second, third...
+  double rootMeanSquare = 0.0; ///< [m], of more than 65,536 points by about as many of them
 };
 
 /// Distance between two surfaces, from the points of each to the triangles of the other.
