@@ -69,17 +69,13 @@ constexpr const char* kCutByBorder =
   "warning: it reaches the border of the image, and is closed there by a flat face that no organ "
   "has";
 
-// whether points that are between voxels, in an image's own axes, lie beyond its last ones
-bool isCutByBorder(vtkImageData& image, std::span<const Eigen::Vector3d> points)
+// about the middles of all voxels, in an image's own axes
+Eigen::AlignedBox3d fieldBox(vtkImageData& image)
 {
   std::array<double, 6> bounds{};
   image.GetBounds(bounds.data());
-  return std::ranges::any_of(points,
-    [&](const Eigen::Vector3d& point)
-    {
-      return point.x() < bounds[0] || point.x() > bounds[1] || point.y() < bounds[2] ||
-        point.y() > bounds[3] || point.z() < bounds[4] || point.z() > bounds[5];
-    });
+  return { Eigen::Vector3d(bounds[0], bounds[2], bounds[4]),
+    Eigen::Vector3d(bounds[1], bounds[3], bounds[5]) };
 }
 
 void toPatient(const PatientImage& volume, std::vector<Eigen::Vector3d>& points)
@@ -284,8 +280,9 @@ FileOrgan bodyOf(
                      : " million triangles, noise at that level; smooth the image, or take fewer "
                        "voxels"));
   }
+  const Eigen::AlignedBox3d field = fieldBox(*volume.image);
   ImageContour contour =
-    imageContour(*region.image, region.level, region.mask, components, region.notes);
+    imageContour(*region.image, region.level, region.mask, field, components, region.notes);
   if (const double voxel = Eigen::Array3d(region.image->GetSpacing()).abs().prod();
       region.mask && contour.largest < leastPiece(voxel))
   {
@@ -299,7 +296,7 @@ FileOrgan bodyOf(
       "warning: the body is what is below the level, as a distance is; what "
       "is above it reaches the border of the image all around");
   }
-  if (isCutByBorder(*volume.image, contour.from))
+  if (!field.contains(boxAbout(contour.from)))
   {
     region.notes.emplace_back(kCutByBorder);
   }

@@ -144,10 +144,26 @@ void countVoxels(vtkImageData& image, const ImageContour& contour, Linked& linke
   }
 }
 
+// to where the voxels say that points are; along an axis on which one is out of the field, to its
+// very place
+void takeBack(ImageContour& contour, const Eigen::Array3d& most, const Eigen::AlignedBox3d* field)
+{
+  for (std::size_t i = 0; i < contour.points.size(); ++i)
+  {
+    const Eigen::Array3d from = contour.from[i].array();
+    Eigen::Array3d reach = most;
+    if (field != nullptr && !field->contains(contour.from[i]))
+    {
+      reach = (from < field->min().array() || from > field->max().array()).select(0.0, most);
+    }
+    contour.points[i] = contour.points[i].array().max(from - reach).min(from + reach).matrix();
+  }
+}
+
 } // namespace
 
-ImageContour imageContour(vtkImageData& image, double level, bool isMask, std::size_t components,
-  std::vector<std::string>& notes)
+ImageContour imageContour(vtkImageData& image, double level, bool isMask,
+  const Eigen::AlignedBox3d& field, std::size_t components, std::vector<std::string>& notes)
 {
   ImageContour contour = contourOf(image, level);
   if (contour.triangles.empty())
@@ -177,8 +193,10 @@ ImageContour imageContour(vtkImageData& image, double level, bool isMask, std::s
   }
   const Neighbors neighbors(contour.points.size(), linked.edges);
   isMask ? bendLeast(contour.points, neighbors, 0.5 * spacing) : smoothStairs(contour);
-  restoreVolumes(contour.points, contour.from, contour.triangles, neighbors, 0.5 * spacing,
-    linked.pieces, linked.sizes);
+  const auto bound = [&] { takeBack(contour, 0.5 * spacing, isMask ? &field : nullptr); };
+  bound();
+  restoreVolumes(
+    contour.points, contour.from, contour.triangles, neighbors, bound, linked.pieces, linked.sizes);
   return contour;
 }
 

@@ -2,7 +2,7 @@
 
 #include "haptics/surface/box_tree.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -33,9 +33,11 @@ struct ImageContour
 /// @param image       nowhere above the level at its border, or everywhere
 /// @param isMask      of two values, with the level in their middle; else there are values between
 ///                    which to interpolate
+/// @param field       box about all voxels' middles that were measured: a face of a mask beyond it
+///                    closes the body there, and stays flat [unit of the image]
 /// @param components  how many pieces at most, the largest first
 /// @param notes       gets what was left out
 [[nodiscard]] ImageContour imageContour(vtkImageData& image, double level, bool isMask,
-  std::size_t components, std::vector<std::string>& notes);
+  const Eigen::AlignedBox3d& field, std::size_t components, std::vector<std::string>& notes);
 
 } // namespace palp

@@ -164,17 +164,9 @@ std::vector<PieceSize> pieceSizes(std::span<const Eigen::Vector3d> points,
 }
 
 void restoreVolumes(std::vector<Eigen::Vector3d>& points, std::span<const Eigen::Vector3d> from,
-  std::span<const Triangle> triangles, const Neighbors& neighbors, const Eigen::Array3d& most,
-  std::span<const int> pieces, std::span<const PieceSize> sizes)
+  std::span<const Triangle> triangles, const Neighbors& neighbors,
+  const std::function<void()>& bound, std::span<const int> pieces, std::span<const PieceSize> sizes)
 {
-  const auto bound = [&] // which takes some of it back
-  {
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      points[i] =
-        points[i].array().max(from[i].array() - most).min(from[i].array() + most).matrix();
-    }
-  };
   const std::vector<Eigen::Vector3d> outward = outwardOf(points, triangles); // also a little later
   constexpr int kLocally = 2;
   for (int i = 0; i < kLocally; ++i)

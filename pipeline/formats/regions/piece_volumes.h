@@ -3,6 +3,7 @@
 #include "pipeline/formats/regions/neighbors.h"
 
 #include <Eigen/Core>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,13 +25,14 @@ struct PieceSize
 /// some ten edges, and then what each piece still lacks, evenly.
 ///
 /// @param from    where its points were before
-/// @param most    how far from there a point may be along each axis [unit of the points]
+/// @param bound   takes points back to where they may be
 /// @param pieces  of each triangle, as piecesOf
 /// @param sizes   what volume each is to have then, by as little as there is room for [unit^3]
 /// @source        what is taken: the volumes that triangles sweep; its spread: the Chebyshev
 ///                semi-iteration (Golub and Varga, Numerische Mathematik 3, 1961) of a random walk
 void restoreVolumes(std::vector<Eigen::Vector3d>& points, std::span<const Eigen::Vector3d> from,
-  std::span<const Triangle> triangles, const Neighbors& neighbors, const Eigen::Array3d& most,
-  std::span<const int> pieces, std::span<const PieceSize> sizes);
+  std::span<const Triangle> triangles, const Neighbors& neighbors,
+  const std::function<void()>& bound, std::span<const int> pieces,
+  std::span<const PieceSize> sizes);
 
 } // namespace palp
