@@ -37,8 +37,9 @@ std::pair<double, double> distances(std::span<const Eigen::Vector3d> from, const
   const std::size_t oneOf = 1 + from.size() / kMany;
   // by the golden ratio, so that whatever order points have in memory, they are evenly chosen
   constexpr std::uint32_t kTurn = 2'654'435'769;
-  const auto isChosen = [below = std::numeric_limits<std::uint32_t>::max() / oneOf](std::size_t i)
-  { return static_cast<std::uint32_t>(i) * kTurn <= below; };
+  const auto part = static_cast<std::uint32_t>(std::numeric_limits<std::uint32_t>::max() / oneOf);
+  const auto isChosen = [part](std::size_t i)
+  { return static_cast<std::uint32_t>(i) * kTurn <= part; };
   constexpr double kAbove = 1.0 + 1e-9; // rounding
   double largest = 0.0;
   double sum = 0.0;
