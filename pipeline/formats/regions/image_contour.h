@@ -25,10 +25,10 @@ struct ImageContour
 /// without the stairs of the voxels (windowed sinc, Taubin 1996, whose toll of the volume is given
 /// back where it was taken).
 ///
-/// Of a mask the voxels tell only that the surface passes between two of them. Of all that do, the
-/// one is taken that bends least, so that terraces of many voxels vanish, too; no point leaves the
-/// half voxel to each side within which it is known, and the volume is that of the voxels. A hollow
-/// of less than 100 voxels is filled, with what lies in it.
+/// Of a mask the voxels tell only that the surface passes between two of them. One is taken that
+/// bends little over some ten voxels, so that terraces as wide vanish, too (wider ones stay); no
+/// point leaves the half voxel to each side within which it is known, and the volume is that of the
+/// voxels. A hollow of less than 100 voxels is filled, with what lies in it.
 ///
 /// @param image       nowhere above the level at its border, or everywhere
 /// @param isMask      of two values, with the level in their middle; else there are values between
