@@ -57,20 +57,17 @@ struct Touch
   Eigen::Vector3d place;
 };
 
-Touch touchOf(const Pierced& found, std::array<int, 2> edge, const Triangle& other)
+std::array<int, 4> whereOf(
+  const std::array<int, 2>& edge, const Triangle& other, unsigned int sides)
 {
-  const auto [low, high] = std::minmax(edge[0], edge[1]);
-  const auto k = static_cast<std::size_t>(std::countr_zero(found.sides));
+  const auto k = static_cast<std::size_t>(std::countr_zero(sides));
   std::array ends{ other[k], other[(k + 1) % 3] };
-  if (std::popcount(found.sides) > 1) // the corner that both have
+  if (std::popcount(sides) > 1) // the corner that both have
   {
-    ends.fill(found.sides == 5U ? other[0] : ends[1]);
+    ends.fill(sides == 5U ? other[0] : ends[1]);
   }
-  return { .where = { low, high, std::min(ends[0], ends[1]), std::max(ends[0], ends[1]) },
-    .isDown = (found.above > 0.0) == (edge[0] == low),
-    .own = -1,
-    .other = -1,
-    .place = found.place };
+  return { std::min(edge[0], edge[1]), std::max(edge[0], edge[1]), std::min(ends[0], ends[1]),
+    std::max(ends[0], ends[1]) };
 }
 
 // visits those that pass through, while that asks for more
@@ -194,9 +191,11 @@ void forCrossings(const BoxTree& tree, std::span<const Triangle> triangles, Visi
       }
       else if (found)
       {
-        touches.push_back(touchOf(*found, { own[k], own[next] }, other));
-        touches.back().own = tree.triangle(i);
-        touches.back().other = tree.triangle(j);
+        touches.push_back({ .where = whereOf({ own[k], own[next] }, other, found->sides),
+          .isDown = (found->above > 0.0) == (own[k] < own[next]),
+          .own = tree.triangle(i),
+          .other = tree.triangle(j),
+          .place = found->place });
       }
     }
     return more;
