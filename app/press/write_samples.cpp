@@ -281,7 +281,7 @@ std::vector<double> rowOf(const Sample& sample, const Scene& all, const Calibrat
   if (hasSeries(all))
   {
     const BodyCompliance body = scene.series != nullptr && contact.touching()
-      ? scene.series->at(contact.center, contact.normal, contact.depth).body
+      ? scene.series->at(seriesPlaceOf(contact)).here
       : BodyCompliance{};
     row.insert(row.end(),
       { toMillimeters(sample.localDepth), body.constant, body.slope, body.bend, body.edge });

@@ -29,8 +29,12 @@ struct Contact
   Eigen::Vector3d spreadSlope = Eigen::Vector3d::Zero();    ///< of curvatureSpread [1/m^2]
   Eigen::Vector3d thicknessSlope = Eigen::Vector3d::Zero(); ///< of thickness [-]
   Eigen::Vector3d tiltSlope = Eigen::Vector3d::Zero();      ///< of tilt [rad/m]
+  Eigen::Vector3d bodyNormal =
+    Eigen::Vector3d::Zero(); ///< mean outward normal below the tool, of unit length
   Eigen::Matrix3d turning =
-    Eigen::Matrix3d::Zero(); ///< of the body's normal, a column for each way to move [1/m]
+    Eigen::Matrix3d::Zero(); ///< of that, a column for each way to move [1/m]
+  double height = 0.0;       ///< of the tool's reference point over the surface [m]
+  Eigen::Vector3d rising = Eigen::Vector3d::Zero(); ///< of that as the tool moves [-]
 
   [[nodiscard]] bool touching() const noexcept
   {

@@ -193,6 +193,7 @@ Sloped measureShape(Contact& contact, const Surface& surface, const Tip& tip, co
   contact.curvatureSlope = slopeOf(shape.meanCurvatureSlope);
   contact.spreadSlope = slopeOf(shape.curvatureSpreadSlope);
   contact.thicknessSlope = slopeOf(shape.thicknessSlope);
+  contact.bodyNormal = normal;
   contact.turning = turning.transpose() - normal * (turning * normal).transpose();
   const Eigen::Vector3d lean = pose.axis - pose.axis.dot(normal) * normal;
   const Eigen::Vector3d tilting = turn(lean) / std::max(lean.norm(), 1e-9);
@@ -259,6 +260,8 @@ Contact exactContact(
   contact.curvedPart = curved.value;
   const Height height = heightOver(flat.value, curved.value * contact.surfaceCurvature,
     curved.value * contact.curvatureSlope + contact.surfaceCurvature * curved.slope);
+  contact.height = height.value;
+  contact.rising = height.slope;
   contact.relief = height.value - here->distance;
   const Eigen::Vector3d upward = height.slope.normalized();
   const double facing = -pose.axis.dot(upward);

@@ -73,6 +73,9 @@ Contact paperContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   const double depth = (center / count - pose.apex).dot(contact.normal);
   contact.center = pose.apex + depth * contact.normal;
   contact.depth = depth;
+  contact.bodyNormal = contact.normal;
+  contact.height = -depth;
+  contact.rising = contact.normal;
   contact.tilt = std::acos(std::clamp(-pose.axis.dot(contact.normal), -1.0, 1.0));
   contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
     surface.edgeDistance(contact.center, contact.triangle));

@@ -37,7 +37,7 @@ TissueAt::TissueAt(const Scene& scene, const Contact& contact) noexcept
   }
   if (scene.series != nullptr)
   {
-    body_ = scene.series->at(contact.center, contact.normal, contact.depth);
+    body_ = scene.series->at(seriesPlaceOf(contact));
   }
   plain_ = scene.law(geometry_);
   asked_ = find(contact.depth);
@@ -79,7 +79,7 @@ Response TissueAt::local(double depth) const noexcept
 SeriesResponse TissueAt::find(double depth) const noexcept
 {
   return body_
-    ? scene_->series->law([this](double at) noexcept { return local(at); }, body_->body, depth)
+    ? scene_->series->law([this](double at) noexcept { return local(at); }, body_->here, depth)
     : SeriesResponse{ local(depth), depth, false };
 }
 
@@ -93,7 +93,7 @@ double TissueAt::energy(double depth) const noexcept
   }
   const double force = at.felt.force;
   return energyTo([this](double deep) noexcept { return local(deep); }, at.local) +
-    force * (depth - at.local) - scene_->series->law.energy(body_->body, force);
+    force * (depth - at.local) - scene_->series->law.energy(body_->here, force);
 }
 
 Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
@@ -118,8 +118,7 @@ Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
   }
   if (body_)
   {
-    const Eigen::Vector3d more = stiffnessContactOf(*contact_).byTool(
-      scene_->series->law.lateral(*body_, answer.felt.force), scene_->series->height);
+    const Eigen::Vector3d more = scene_->series->lateral(*body_, answer.felt.force);
     // no round tool without friction is pushed more sideways than up; values that leap between
     // places, as over a thin rim beside a support, would say so
     force += std::min(1.0, answer.felt.force / more.norm()) * more;

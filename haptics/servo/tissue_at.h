@@ -54,7 +54,7 @@ private:
   ContactGeometry geometry_; // as the law is asked
   std::optional<StiffnessField::Blend> stiffness_;
   std::optional<NoduleField::Local> nodules_;
-  std::optional<ComplianceField::Local> body_;
+  std::optional<SeriesBody::Below> body_;
   Response plain_{}; // of the law alone, at the depth of the contact
   mutable double askedDepth_;
   mutable SeriesResponse asked_{}; // there, of all of it

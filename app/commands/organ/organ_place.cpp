@@ -4,6 +4,7 @@
 #include "app/press/recording.h"
 #include "calibration/organ/organ_compliance.h"
 #include "calibration/organ/organ_places.h"
+#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/contact/find_contact.h"
 #include "haptics/error.h"
 #include "haptics/servo/tissue_at.h"
@@ -89,7 +90,7 @@ OrganPlace::Answer OrganPlace::at(const ToolPose& pose) const
   const Contact contact = findContact(scene_, pose);
   const SeriesResponse answer = TissueAt(scene_, contact).answer(contact.depth);
   const std::string remark = remarkOf(pose, answer);
-  return { .body = scene_.series->at(contact.center, contact.normal, contact.depth).body,
+  return { .body = scene_.series->at(seriesPlaceOf(contact)).here,
     .force = answer.felt.force,
     .local = answer.local,
     .remark =

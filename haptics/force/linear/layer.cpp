@@ -59,6 +59,10 @@ Layer::Layer(double poissonRatio, Base base)
 
 PunchSolution Layer::operator()(double width) const noexcept
 {
+  if (width == 0.0)
+  {
+    return rows_.front(); // as without end
+  }
   if (width < kWidest)
   {
     const double along = width / kStep;

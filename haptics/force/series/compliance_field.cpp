@@ -25,38 +25,12 @@ std::uint64_t keyOf(const std::array<int, 3>& cell)
   return part(0) << 42U | part(1) << 21U | part(2);
 }
 
-// how much nearer to an edge than a place something is, and the gradient of its logarithm; it ends
-// before the edge where the place tells too little of that
-struct Nearer
+// how far from an edge something is, over how far a place is; it ends before the edge where the
+// place tells too little of that
+template <typename Lanes>
+Lanes fartherOf(const Lanes& past) noexcept
 {
-  float value;
-  Eigen::Vector3f turn;
-};
-Nearer nearerOf(const Eigen::Vector3f& edge, const Eigen::Vector3f& away) noexcept
-{
-  const float past = 1.0F + edge.dot(away) - kNearest;
-  const float round = std::sqrt(past * past + kRound * kRound);
-  const float nearer = 1.0F / (kNearest + 0.5F * (past + round));
-  return { nearer, -0.5F * nearer * (1.0F + past / round) * edge };
-}
-
-// to where something is beside a wedge from there; where 1/D ends within the blend it changes by
-// more than in a wedge, which is no way toward an edge
-void bringNearer(ComplianceField::Local& local, const Eigen::Vector3d& away)
-{
-  BodyCompliance& body = local.body;
-  const double squaredEdge = body.edge * body.edge;
-  const double like = std::min(1.0, squaredEdge / local.edge.norm());
-  const double most = (1.0 - static_cast<double>(kNearest)) / body.edge;
-  const double reached = std::min(most, like * like * local.edge.dot(away) / squaredEdge);
-  const double nearer = 1.0 / (1.0 - body.edge * reached);
-  const double squared = nearer * nearer;
-  body.constant += 2.0 * body.slope * nearer * reached;
-  body.slope *= squared;
-  body.edge *= nearer;
-  local.constant *= squared;
-  local.slope *= squared * nearer;
-  local.edge *= squared;
+  return kNearest + 0.5F * (past + (past * past + kRound * kRound).sqrt());
 }
 
 // over an edge, to which faces lean from either side, less than 1
@@ -66,12 +40,10 @@ double oneFaceOf(const Eigen::Vector3d& outward)
 }
 
 // of what is never negative, and spread over powers of ten beside an edge
-float ratioOf(float wanted, double blend)
+float ratioOf(float wanted, float blend)
 {
-  constexpr double kMost = 2.0;
-  return blend > 0.0
-    ? static_cast<float>(std::clamp(static_cast<double>(wanted) / blend, 1.0 / kMost, kMost))
-    : 1.0F;
+  constexpr float kMost = 2.0F;
+  return blend > 0.0F ? std::clamp(wanted / blend, 1.0F / kMost, kMost) : 1.0F;
 }
 
 } // namespace
@@ -155,32 +127,15 @@ void ComplianceField::forCellsWithin(const Eigen::Vector3d& position, const Visi
   }
 }
 
-// one of Wendland's, 1 at the place and 0 from the reach on
-inline ComplianceField::Weight ComplianceField::weightOf(
-  const Place& place, const Eigen::Vector3f& away, const Eigen::Vector3f& normal) const noexcept
-{
-  const float squared = away.squaredNorm();
-  constexpr float kTurns = 1.0F / (kFacing - kAskew);
-  const float beside = kTurns * (normal.dot(place.normal) - kAskew);
-  if (squared >= reach_ * reach_ || beside <= 0.0F)
-  {
-    return { 0.0F, 0.0F };
-  }
-  const float t = std::sqrt(squared) * perReach_;
-  const float rest = 1.0F - t;
-  const float facing = beside >= 1.0F ? 1.0F : static_cast<float>(smoothStep(beside));
-  const float cube = facing * rest * rest * rest;
-  return { cube * rest * (4.0F * t + 1.0F), -20.0F * cube * perReach_ * perReach_ };
-}
-
 float ComplianceField::constantOf(const Place& place) noexcept
 {
   return place.beside > 0.0F ? place.rest + place.wedge / place.beside : place.rest;
 }
 
-double ComplianceField::constantOf(const Eigen::Matrix<double, kTold, 1>& told) noexcept
+float ComplianceField::constantOf(const Blend<1>& told) noexcept
 {
-  return told[kPart] > 0.0 ? told[kRest] + told[kWedge] * told[kPart] / told[kBeside] : told[kRest];
+  return told[kPart] > 0.0F ? told[kRest] + told[kWedge] * told[kPart] / told[kBeside]
+                            : told[kRest];
 }
 
 // what blending evens out is added beforehand, so that it goes through the places' values
@@ -194,123 +149,137 @@ void ComplianceField::sharpen()
     for (std::size_t i = 0; i < next.size(); ++i)
     {
       const Place& one = wanted[i];
-      const auto values = blendAt(one.position.cast<double>(), one.normal.cast<double>()).values;
-      const auto beside = static_cast<float>(values[kPart]);
-      const bool isClose = values[kBeside] < kClose * cell_ * values[kPart];
-      next[i].rest += isClose ? one.rest - static_cast<float>(values[kRest])
-                              : constantOf(one) - static_cast<float>(constantOf(values));
-      next[i].slope *= ratioOf((1.0F - beside) * one.slope, values[kSlope]);
-      next[i].bend += one.bend - static_cast<float>(values[kBend]);
-      next[i].wedge *= ratioOf(beside * one.wedge, values[kWedge]);
-      next[i].beside *= ratioOf(beside * one.beside, values[kBeside]);
+      const Blend<1> told =
+        blendAt<1>({ Spot{ one.position.cast<double>(), one.normal.cast<double>() } });
+      const float beside = told[kPart];
+      const bool isClose = told[kBeside] < kClose * static_cast<float>(cell_) * beside;
+      next[i].rest += isClose ? one.rest - told[kRest] : constantOf(one) - constantOf(told);
+      next[i].slope *= ratioOf((1.0F - beside) * one.slope, told[kSlope]);
+      next[i].bend += one.bend - told[kBend];
+      next[i].wedge *= ratioOf(beside * one.wedge, told[kWedge]);
+      next[i].beside *= ratioOf(beside * one.beside, told[kBeside]);
     }
     places_ = std::move(next);
   }
 }
 
-ComplianceField::Blend ComplianceField::blendAt(
-  const Eigen::Vector3d& center, const Eigen::Vector3d& normal) const noexcept
+// by a weight of Wendland's, 1 at a place and 0 from its reach on
+template <int kSpots>
+ComplianceField::Blend<kSpots> ComplianceField::blendAt(
+  const std::array<Spot, kSpots>& spots) const noexcept
 {
-  // times the weight and its gradient
-  Eigen::Matrix<float, 4, kTold> sums = Eigen::Matrix<float, 4, kTold>::Zero();
-  Eigen::Vector4f weights = Eigen::Vector4f::Zero(); // by themselves
-  Eigen::Vector3f outward = Eigen::Vector3f::Zero(); // of the places
-  float doubtful = 0.0F;
-  const Eigen::Vector3f facing = normal.cast<float>();
-  const auto found = cells_.find(keyOf(cellOf(center)));
+  using Lanes = Eigen::Array<float, 1, kSpots>;
+  using Points = Rows<3, kSpots>;
+  const auto found = cells_.find(keyOf(cellOf(spots[0].center)));
   const Range range = found != cells_.end() ? found->second : Range{};
+  const Eigen::Vector3d origin = spots[0].center;
+  Points centers; // from there
+  Points normals;
+  for (int k = 0; k < kSpots; ++k)
+  {
+    const Spot& spot = spots[static_cast<std::size_t>(k)];
+    centers.col(k) = (spot.center - origin).array().cast<float>();
+    normals.col(k) = spot.normal.array().cast<float>();
+  }
+  Blend<kSpots> sums = Blend<kSpots>::Zero();
+  Lanes all = Lanes::Zero();
   for (std::uint32_t k = range.first; k < range.last; ++k)
   {
     const Place& place = places_[near_[k]];
-    const Eigen::Vector3f away = (center - place.position.cast<double>()).cast<float>();
-    const Weight weight = weightOf(place, away, facing);
-    if (weight.value <= 0.0F)
+    const Eigen::Vector3f to = (origin - place.position.cast<double>()).cast<float>();
+    if (to.squaredNorm() >= reach_ * reach_)
     {
       continue;
     }
-    Eigen::Matrix<float, kTold, 1> told = Eigen::Matrix<float, kTold, 1>::Zero();
-    told[kBend] = place.bend;
+    const auto along = [](const Eigen::Vector3f& one, const Points& other)
+    { return Lanes(one[0] * other.row(0) + one[1] * other.row(1) + one[2] * other.row(2)); };
+    const Points away = centers.colwise() + to.array();
+    const Lanes rest = (1.0F - perReach_ * away.square().colwise().sum().sqrt()).max(0.0F);
+    constexpr float kTurns = 1.0F / (kFacing - kAskew);
+    const Lanes facing = (kTurns * (along(place.normal, normals) - kAskew)).max(0.0F).min(1.0F);
+    const Lanes weight =
+      facing * facing * (3.0F - 2.0F * facing) * rest.square().square() * (5.0F - 4.0F * rest);
+    all += weight;
+    sums.row(kPart) += weight * (place.beside > 0.0F ? 1.0F : 0.0F);
+    sums.template bottomRows<3>().matrix() += place.normal * weight.matrix();
     if (place.beside > 0.0F)
     {
-      const auto [nearer, turn] = nearerOf(place.edge, away);
-      told[kRest] = place.rest;
-      told[kWedge] = place.wedge;
-      told[kBeside] = place.beside / nearer;
-      told[kPart] = 1.0F;
-      sums.col(kBeside).tail<3>() -= told[kBeside] * weight.value * turn;
+      sums.row(kRest) += weight * place.rest;
+      sums.row(kWedge) += weight * place.wedge;
+      sums.row(kBeside) +=
+        weight * place.beside * fartherOf<Lanes>(along(place.edge, away) + (1.0F - kNearest));
     }
     else
     {
-      told[kRest] = place.rest + place.gradient.dot(away);
-      told[kSlope] = place.slope;
-      sums.col(kRest).tail<3>() += weight.value * place.gradient;
+      sums.row(kRest) += weight * (place.rest + along(place.gradient, away));
+      sums.row(kSlope) += weight * place.slope;
     }
-    Eigen::Vector4f how;
-    how << weight.value, weight.slope * away;
-    sums.noalias() += how * told.transpose();
-    weights += how;
-    outward += weight.value * place.normal;
-    doubtful += weight.value * place.doubtful;
+    sums.row(kBend) += weight * place.bend;
+    sums.row(kDoubtful) += weight * place.doubtful;
   }
-  const auto all = static_cast<double>(weights[0]);
-  if (!(all > 0.0))
+  if (!(all[0] > 0.0F))
   {
-    return {};
+    sums.setZero();
+    sums.row(kDoubtful) = 1.0F;
+    return sums;
   }
-  Blend blend{ .values = sums.row(0).transpose().cast<double>() / all,
-    .gradients = sums.bottomRows<3>().cast<double>() / all,
-    .outward = outward.cast<double>() / all,
-    .doubtful = static_cast<double>(doubtful) / all };
-  blend.gradients -= weights.tail<3>().cast<double>() * blend.values.transpose() / all;
-  blend.gradients -= normal * (normal.transpose() * blend.gradients);
-  return blend;
+  return sums.rowwise() / all;
 }
 
-// of the wedge that places beside an edge tell together: W/D, its slope W/(2 D^2), and 1/D by its
-// part of all slope
-void ComplianceField::addEdge(Local& local, const Blend& blend) noexcept
+template <int kSpots>
+std::array<ComplianceField::Local, kSpots> ComplianceField::tellAt(
+  std::array<Spot, kSpots> spots) const noexcept
 {
-  const double wedge = blend.values[kWedge];
-  const double part = blend.values[kPart];
-  const double nearness = part / blend.values[kBeside];
-  const Eigen::Vector3d nearer = nearness *
-    (blend.gradients.col(kPart) / part - blend.gradients.col(kBeside) / blend.values[kBeside]);
-  const Eigen::Vector3d sharper = blend.gradients.col(kWedge);
-  const double lean = 0.5 * wedge * nearness * nearness;
-  const Eigen::Vector3d leaning = nearness * (0.5 * nearness * sharper + wedge * nearer);
-  local.body.constant += wedge * nearness;
-  local.constant += nearness * sharper + wedge * nearer;
-  local.body.slope += lean;
-  local.slope += leaning;
-  const double share = lean > 0.0 ? lean / local.body.slope : 0.0;
-  local.body.edge = share * nearness;
-  local.edge = share * nearer;
-  if (share > 0.0)
+  Blend<kSpots> blend = blendAt<kSpots>(spots);
+  if (spots[0].height > 0.0 && blend(kPart, 0) > 0.0F)
   {
-    local.edge += nearness / local.body.slope * (leaning - share * local.slope);
+    for (int k = 0; k < kSpots; ++k)
+    {
+      Spot& spot = spots[static_cast<std::size_t>(k)];
+      const Eigen::Vector3f outward = blend.col(k).template tail<3>().matrix().normalized();
+      spot.center += static_cast<double>(blend(kPart, k)) * spot.height *
+        (spot.normal - outward.template cast<double>());
+    }
+    blend = blendAt<kSpots>(spots);
   }
+  std::array<Local, kSpots> told;
+  for (int k = 0; k < kSpots; ++k)
+  {
+    told[static_cast<std::size_t>(k)] = localOf(blend.col(k));
+  }
+  return told;
+}
+
+// beside edges, of the wedge that places there tell together: W/D, its slope W/(2 D^2), and 1/D by
+// its part of all slope
+ComplianceField::Local ComplianceField::localOf(const Blend<1>& told) noexcept
+{
+  const auto values = told.cast<double>().eval();
+  Local local{ .body = { values[kRest], values[kSlope], values[kBend], 0.0 },
+    .doubtful = values[kDoubtful] };
+  BodyCompliance& body = local.body;
+  if (values[kPart] > 0.0)
+  {
+    const double nearness = values[kPart] / values[kBeside];
+    const double lean = 0.5 * values[kWedge] * nearness * nearness;
+    body.constant += values[kWedge] * nearness;
+    body.slope += lean;
+    body.edge = lean > 0.0 ? lean / body.slope * nearness : 0.0;
+  }
+  body.slope *= oneFaceOf(values.tail<3>().matrix());
+  return local;
 }
 
 ComplianceField::Local ComplianceField::at(
   const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double height) const noexcept
 {
-  const Blend blend = blendAt(center, normal);
-  const auto& values = blend.values;
-  const auto& gradients = blend.gradients;
-  Local local{ .body = { values[kRest], values[kSlope], values[kBend], 0.0 },
-    .constant = gradients.col(kRest),
-    .slope = gradients.col(kSlope),
-    .bend = gradients.col(kBend),
-    .doubtful = blend.doubtful };
-  values[kPart] > 0.0 ? addEdge(local, blend) : void();
-  const double oneFace = oneFaceOf(blend.outward);
-  local.body.slope *= oneFace;
-  local.slope *= oneFace;
-  if (height > 0.0 && local.body.edge > 0.0)
-  {
-    bringNearer(local, height * (normal - blend.outward.normalized()));
-  }
-  return local;
+  return tellAt<1>({ Spot{ center, normal, height } })[0];
+}
+
+std::array<ComplianceField::Local, 4> ComplianceField::atFour(
+  const std::array<Spot, 4>& spots) const noexcept
+{
+  return tellAt<4>(spots);
 }
 
 } // namespace palp

@@ -57,14 +57,10 @@ struct PlacedCompliance
 class ComplianceField
 {
 public:
-  /// A body at a contact, with the gradients of what is told of it along the surface.
+  /// A body at a contact.
   struct Local
   {
     BodyCompliance body;
-    Eigen::Vector3d constant = Eigen::Vector3d::Zero(); ///< grad E* G0 [1/m^2]
-    Eigen::Vector3d slope = Eigen::Vector3d::Zero();    ///< grad E* |b| [1/m^3]
-    Eigen::Vector3d bend = Eigen::Vector3d::Zero();     ///< grad E* tr A [1/m^4]
-    Eigen::Vector3d edge = Eigen::Vector3d::Zero();     ///< grad 1/D [1/m^2]
     double doubtful = 0.0; ///< part of what is told here that may not be believed [-]
 
     /// Of a body that gives way so many times more.
@@ -73,9 +69,6 @@ public:
       body.constant *= factor;
       body.slope *= factor;
       body.bend *= factor;
-      constant *= factor;
-      slope *= factor;
-      bend *= factor;
       return *this;
     }
   };
@@ -88,14 +81,23 @@ public:
   ComplianceField(std::span<const PlacedCompliance> places, double spacing, double poisson,
     std::shared_ptr<const OrganMotion> motion = nullptr, double young = 0.0);
 
-  /// @param center  of a contact, on the surface [m]
-  /// @param normal  outward, of unit length
-  /// @param height  of what meets the body there, over the center [m]: beside an edge, over which
-  ///                normals lean, its foot is the nearest point of the face
-  /// @return        of a half-space where no place is near
-  /// @realtime      pure; no allocation, no lock, no exception
+  /// Where a body is asked.
+  struct Spot
+  {
+    Eigen::Vector3d center; ///< of a contact, on the surface [m]
+    Eigen::Vector3d normal; ///< outward, of unit length
+    double height = 0.0;    ///< of what meets the body there, over the center [m]: beside an edge,
+                            ///< over which the normal leans, its foot is the nearest of the face
+  };
+
+  /// @return    of a half-space where no place is near
+  /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] Local at(const Eigen::Vector3d& center, const Eigen::Vector3d& normal,
     double height = 0.0) const noexcept;
+
+  /// At four that are next to each other, in the time of one.
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] std::array<Local, 4> atFour(const std::array<Spot, 4>& spots) const noexcept;
 
   [[nodiscard]] std::size_t places() const noexcept
   {
@@ -138,26 +140,21 @@ private:
     kRest,  // of the constant, without edges
     kSlope, // likewise
     kBend,
-    kWedge,  // times D, what edges add to the constant
-    kBeside, // D times the next
-    kPart,   // of places beside an edge
-    kTold
+    kWedge,    // times D, what edges add to the constant
+    kBeside,   // D times the part of places beside an edge
+    kDoubtful, // part of places that may not be believed
+    kPart,     // of places beside an edge
+    kOutward,  // mean of their normals, x, y, z
+    kTold = kOutward + 3
   };
+
+  // a column for each spot, added up a row at a time
+  template <int kRows, int kSpots>
+  using Rows = Eigen::Array<float, kRows, kSpots, kSpots == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
 
   // what places tell together
-  struct Blend
-  {
-    Eigen::Matrix<double, kTold, 1> values = Eigen::Matrix<double, kTold, 1>::Zero();
-    Eigen::Matrix<double, 3, kTold> gradients = Eigen::Matrix<double, 3, kTold>::Zero();
-    Eigen::Vector3d outward = Eigen::Vector3d::Zero(); // mean of their normals
-    double doubtful = 1.0;
-  };
-
-  struct Weight
-  {
-    float value;
-    float slope; // by half the square of the distance [1/m^2]
-  };
+  template <int kSpots>
+  using Blend = Rows<kTold, kSpots>;
 
   struct Range
   {
@@ -166,13 +163,13 @@ private:
   };
 
   [[nodiscard]] Cell cellOf(const Eigen::Vector3d& place) const noexcept;
-  [[nodiscard]] Weight weightOf(
-    const Place& place, const Eigen::Vector3f& away, const Eigen::Vector3f& normal) const noexcept;
-  [[nodiscard]] Blend blendAt(
-    const Eigen::Vector3d& center, const Eigen::Vector3d& normal) const noexcept;
+  template <int kSpots>
+  [[nodiscard]] Blend<kSpots> blendAt(const std::array<Spot, kSpots>& spots) const noexcept;
+  template <int kSpots>
+  [[nodiscard]] std::array<Local, kSpots> tellAt(std::array<Spot, kSpots> spots) const noexcept;
   [[nodiscard]] static float constantOf(const Place& place) noexcept;
-  [[nodiscard]] static double constantOf(const Eigen::Matrix<double, kTold, 1>& told) noexcept;
-  static void addEdge(Local& local, const Blend& blend) noexcept;
+  [[nodiscard]] static float constantOf(const Blend<1>& told) noexcept;
+  [[nodiscard]] static Local localOf(const Blend<1>& told) noexcept;
   void sortIntoCells();
   template <typename Visit>
   void forCellsWithin(const Eigen::Vector3d& position, const Visit& visit); // reach of there

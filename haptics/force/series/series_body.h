@@ -5,29 +5,45 @@
 #include "haptics/force/validity.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 
 namespace palp
 {
 
+/// Where a tool stands over a body, and how that changes as the tool moves.
+struct SeriesPlace
+{
+  Eigen::Vector3d tool;    ///< its reference point [m]
+  Eigen::Vector3d normal;  ///< mean of the body below, outward, of unit length
+  double height;           ///< of the tool over the surface [m]
+  Eigen::Matrix3d turning; ///< of the normal, a column for each way in which the tool moves [1/m]
+  Eigen::Vector3d rising;  ///< of the height [-]
+};
+
 /// A body that gives way as a whole, felt by the tool of a law.
 struct SeriesBody
 {
   std::shared_ptr<const ComplianceField> field; ///< never null
   SeriesLaw law;
-  double height = 0.0; ///< of the tool's reference point over its deepest one [m]
   double softer = 1.0; ///< modulus of the law over that which the field is told by [-]
 
-  /// At a contact of a depth.
-  /// @realtime  pure; no allocation, no lock, no exception
-  [[nodiscard]] ComplianceField::Local at(
-    const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double depth) const noexcept
+  /// The body below a tool, and below the same a step aside along each axis.
+  struct Below
   {
-    ComplianceField::Local local = field->at(center, normal, law.roundness() - depth);
-    local *= softer;
-    return local;
-  }
+    BodyCompliance here;
+    std::array<BodyCompliance, 3> aside;
+  };
+
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] Below at(const SeriesPlace& place) const noexcept;
+
+  /// On the tool, toward where the body gives way more [N].
+  ///
+  /// @param force  at which the contact is held [N]
+  /// @realtime     pure; no allocation, no lock, no exception
+  [[nodiscard]] Eigen::Vector3d lateral(const Below& body, double force) const noexcept;
 };
 
 /// @return  null where there is no field

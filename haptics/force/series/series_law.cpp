@@ -175,19 +175,6 @@ SeriesLaw::Gain SeriesLaw::gainOf(
     .isHeld = free > x };
 }
 
-Eigen::Vector3d SeriesLaw::lateral(const ComplianceField::Local& local, double force) const noexcept
-{
-  const double f = force / modulus_;
-  Eigen::Vector3d change = 0.5 * f * f * local.constant + kWidened * widened(f) * local.bend;
-  if (local.body.slope > 0.0 && f > 0.0)
-  {
-    const Gain gain = gainOf(f, radiusOf(f), local.body);
-    const double reached = gain.aside / gain.far;
-    change += f * f * reached * (gain.nearer * local.edge - local.slope);
-  }
-  return modulus_ * change;
-}
-
 double SeriesLaw::aside(const BodyCompliance& body, double force) const noexcept
 {
   const double f = force / modulus_;
@@ -197,14 +184,36 @@ double SeriesLaw::aside(const BodyCompliance& body, double force) const noexcept
 
 double SeriesLaw::energy(const BodyCompliance& body, double force) const noexcept
 {
+  return modulus_ * energyOf(atForce(force), body);
+}
+
+Eigen::Vector3d SeriesLaw::lateral(const BodyCompliance& here,
+  const std::array<BodyCompliance, 3>& aside, double step, double force) const noexcept
+{
+  const Loaded loaded = atForce(force);
+  const double energy = energyOf(loaded, here);
+  const auto slope = [&](const BodyCompliance& body)
+  { return modulus_ * (energyOf(loaded, body) - energy) / step; };
+  return { slope(aside[0]), slope(aside[1]), slope(aside[2]) };
+}
+
+SeriesLaw::Loaded SeriesLaw::atForce(double force) const noexcept
+{
   const double f = force / modulus_;
-  const double even = 0.5 * f * f * body.constant + kWidened * widened(f) * body.bend;
+  return { f, radiusOf(f), widened(f) };
+}
+
+// over E*
+double SeriesLaw::energyOf(const Loaded& loaded, const BodyCompliance& body) const noexcept
+{
+  const auto& [f, width, widened] = loaded;
+  const double even = 0.5 * f * f * body.constant + kWidened * widened * body.bend;
   if (!(body.slope > 0.0 && f > 0.0))
   {
-    return modulus_ * even;
+    return even;
   }
-  const Gain gain = gainOf(f, radiusOf(f), body);
-  return modulus_ * (even - f * f * (gain.nearer - gain.less));
+  const Gain gain = gainOf(f, width, body);
+  return even - f * f * (gain.nearer - gain.less);
 }
 
 } // namespace palp

@@ -79,13 +79,6 @@ public:
     return halved(contact, body, depth);
   }
 
-  /// Along the surface, on the tool, toward what is softer [N].
-  ///
-  /// @param force   at which the contact is held [N]
-  /// @realtime      pure; no allocation, no lock, no exception
-  [[nodiscard]] Eigen::Vector3d lateral(
-    const ComplianceField::Local& local, double force) const noexcept;
-
   /// Radius of the tip at its apex [m]; 0: sharp or flat.
   [[nodiscard]] double roundness() const noexcept
   {
@@ -100,6 +93,16 @@ public:
   /// What the body adds to the complementary energy [J].
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] double energy(const BodyCompliance& body, double force) const noexcept;
+
+  /// On the tool, toward where the body gives way more: by that energy, so that whatever the body
+  /// depends on counts [N].
+  ///
+  /// @param aside   the body where the tool stands a step aside, along x, y and z
+  /// @param step    [m]
+  /// @param force   at which the contact is held [N]
+  /// @realtime      pure; no allocation, no lock, no exception
+  [[nodiscard]] Eigen::Vector3d lateral(const BodyCompliance& here,
+    const std::array<BodyCompliance, 3>& aside, double step, double force) const noexcept;
 
 private:
   static constexpr int kMostSteps = 8;   // three are usual
@@ -143,6 +146,14 @@ private:
     double slope; // da/df
   };
 
+  // a force over E*, with its contact and int a^2 f df
+  struct Loaded
+  {
+    double force;
+    Radius width;
+    double widened;
+  };
+
   // of what the pressure gains by moving aside: the complementary energy is f^2 times the height
   struct Gain
   {
@@ -157,6 +168,8 @@ private:
 
   [[nodiscard]] Radius radiusOf(double force) const noexcept;
   [[nodiscard]] double widened(double force) const noexcept; // int a^2 f df
+  [[nodiscard]] Loaded atForce(double force) const noexcept;
+  [[nodiscard]] double energyOf(const Loaded& loaded, const BodyCompliance& body) const noexcept;
   [[nodiscard]] Gain gainOf(
     double force, const Radius& width, const BodyCompliance& body) const noexcept;
   [[nodiscard]] Yield yieldOf(double force, const BodyCompliance& body) const noexcept;
