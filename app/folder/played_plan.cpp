@@ -8,6 +8,7 @@
 #include "app/press/presses.h"
 #include "app/press/recorded_rows.h"
 #include "app/supports/support_text.h"
+#include "haptics/files/csv_text.h"
 
 #include <algorithm>
 #include <iterator>
@@ -47,12 +48,34 @@ std::vector<std::string> pressPlaces(
   return notes;
 }
 
+// on tissues that have another Poisson's ratio than their organ file
+std::vector<std::string> otherPoissons(const Recording& recording)
+{
+  std::vector<std::string> notes;
+  for (int i = 0; i < organCount(recording.scene); ++i)
+  {
+    const Scene& organ = organOf(recording.scene, i);
+    if (organ.series != nullptr &&
+      organ.series->otherPoisson(organ.law) > SeriesBody::kOtherPoisson)
+    {
+      const std::string name = recording.organName(i);
+      const std::string told = shortest(organ.series->field->poissonRatio());
+      notes.push_back((name.empty() ? "" : name + ": ") +
+        "the organ file is of a Poisson's ratio of " + told + ", and the tissue of " +
+        shortest(organ.law.material().poissonRatio) +
+        ", by which forces are off by some percent; give --poisson " + told +
+        ", or make the file of the other by palp organ --poisson");
+    }
+  }
+  return notes;
+}
+
 } // namespace
 
 std::vector<std::string> playInto(
   Recording& recording, const ScenePlan& plan, const ScriptedPath* path)
 {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = otherPoissons(recording);
   const std::string& device = plan.device.name;
   if (plan.recording)
   {
@@ -63,7 +86,7 @@ std::vector<std::string> playInto(
   else if (plan.presses)
   {
     recording.device = "given places";
-    notes = pressPlaces(recording, *plan.presses, plan.chain);
+    std::ranges::move(pressPlaces(recording, *plan.presses, plan.chain), std::back_inserter(notes));
   }
   else if (path)
   {

@@ -239,6 +239,7 @@ std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Co
     rules.push_back(seriesRule(*scene.series, scene.law,
       { contact.center, contact.normal, local.contactRadius, local.force, contact.thickness,
         contact.edgeDistance }));
+    contact.touching() ? void() : void(rules.back().value = 0.0);
     rules.push_back(facetRule(*scene.surface, scene.law.tip(), contact));
   }
   else if (scene.surface != nullptr && !scene.surface->tree().empty())

@@ -137,7 +137,7 @@ Readings read(const OrganModel& model, const TangentPlane& plane, const SmoothPr
 std::optional<OrganCompliance> fitted(
   const Readings& readings, const Pressed& pressed, const TangentPlane& plane, double radius)
 {
-  if (readings.places.size() < kRings.size() * kAround / 2)
+  if (readings.places.size() < kRings.size() * kAround / 3)
   {
     return std::nullopt;
   }

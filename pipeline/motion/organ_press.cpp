@@ -13,7 +13,7 @@ OrganLoad organLoadOf(const Sample& sample, double depth, const Scene& tissue)
   const SeriesResponse answer = TissueAt(tissue, sample.contact).answer(depth);
   return { .center = sample.contact.center,
     .normal = sample.contact.normal,
-    .force = tissue.series->softer * answer.felt.force / tissue.law.material().contactModulus(),
+    .force = answer.felt.force / tissue.series->law.modulus(),
     .given = depth - answer.local };
 }
 

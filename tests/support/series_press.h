@@ -12,7 +12,7 @@ class SeriesPress
 public:
   explicit SeriesPress(const Tip& tip)
     : law_(tip, makeMaterial(units::fromKilopascals(50.0), 0.45), { .mode = LawMode::Exact })
-    , series_(law_)
+    , series_(tip, law_.material().contactModulus())
   {
   }
 

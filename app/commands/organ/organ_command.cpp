@@ -8,6 +8,7 @@
 #include "app/places/fiducial_file.h"
 #include "app/places/placed_press.h"
 #include "app/press/body.h"
+#include "app/program/output.h"
 #include "app/stiffness/stiffness_text.h"
 #include "app/supports/support_region.h"
 #include "calibration/figures/table.h"
@@ -41,13 +42,14 @@ struct OrganOptions
   MeshSource mesh{ .bundled = "liver" };
   Tip tip = SphereTip{ .radius = 10.0_mm };
   double young = 50.0_kPa;
-  double poisson = 0.45;
+  double poisson = 0.33; // as where it is pressed
   double cell = 4.0_mm;
   std::vector<std::string> supports;
   std::vector<std::string> places;
   std::filesystem::path points;
   Range depths;
   std::filesystem::path out;
+  bool overwrite = false;
 };
 
 std::vector<Support> supportsOf(const OrganOptions& options, const Surface& surface)
@@ -199,7 +201,8 @@ void runOrgan(const OrganOptions& options)
                     .supports = options.supports,
                     .young = options.young,
                     .poisson = options.poisson,
-                    .cell = options.cell },
+                    .cell = options.cell,
+                    .overwrite = options.overwrite },
       body, supportsOf(options, *body.haptic), *interrupt);
     return;
   }
@@ -239,6 +242,7 @@ void addOrganCommand(CLI::App& app)
   CLI::Option* out = command->add_option("--out", options->out,
     "Write what the body gives way all over its surface to this file, for --organ of run, view and "
     "scenes; goes on where it was interrupted");
+  addOverwrite(*command, options->overwrite);
   command->add_option("--at", options->places, "A place x,y,z in mm; may be given again")
     ->allow_extra_args(false)
     ->excludes(out);

@@ -142,6 +142,13 @@ void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
     std::cerr << "palp: " << plan.out.string() << ": is of this body and these supports already\n";
     return;
   }
+  if (std::filesystem::exists(plan.out) && !plan.overwrite)
+  {
+    throw Error(ErrorCode::BadFile,
+      plan.out.string() +
+        ": is an organ file of another body, its supports, tissue or cells; give "
+        "--overwrite, or another --out");
+  }
   const std::filesystem::path begun = begunOf(plan.out);
   OrganTable table = tableIn(begun, wanted).value_or(wanted);
   checkMap(body, plan);

@@ -18,8 +18,9 @@ struct OrganFilePlan
   std::filesystem::path out;
   std::vector<std::string> supports; ///< as text
   double young = 50e3;               ///< [Pa]; of a body with a map E* is of this
-  double poisson = 0.45;             ///< [-]
+  double poisson = 0.33;             ///< [-]
   double cell = 4e-3;                ///< side of the cubes [m]
+  bool overwrite = false;            ///< an organ file of something else
 };
 
 /// Makes an organ file of a body, or goes on with one that was begun beside it; does nothing where

@@ -64,7 +64,8 @@ OrganPlace::OrganPlace(const OrganModel& model, std::span<const Support> support
       "too little of the surface is around the place " + units::inMillimeters(point.position.x()) +
         ", " + units::inMillimeters(point.position.y()) + ", " +
         units::inMillimeters(point.position.z()) +
-        ", or the body hangs over it or rises beside it; give smaller cells, or another place");
+        (model.leftOut() > 0.0 ? ", it is on a piece that is left out," : ",") +
+        " or the body hangs over it or rises beside it; give smaller cells, or another place");
   }
   scene_.series = seriesBodyOf(fieldAround(model, supports, surface, point), scene.law);
 }

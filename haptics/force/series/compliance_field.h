@@ -62,15 +62,6 @@ public:
   {
     BodyCompliance body;
     double doubtful = 0.0; ///< part of what is told here that may not be believed [-]
-
-    /// Of a body that gives way so many times more.
-    Local& operator*=(double factor) noexcept
-    {
-      body.constant *= factor;
-      body.slope *= factor;
-      body.bend *= factor;
-      return *this;
-    }
   };
 
   /// @param places   spread evenly, no two nearer than the spacing, no gap wider

@@ -26,8 +26,7 @@ SeriesBody::Below SeriesBody::at(const SeriesPlace& place) const noexcept
     const Eigen::Vector3d normal = (place.normal + place.turning * step).normalized();
     spots[static_cast<std::size_t>(k)] = { place.tool + step - height * normal, normal, height };
   }
-  std::array<ComplianceField::Local, 4> told = field->atFour(spots);
-  std::ranges::for_each(told, [this](ComplianceField::Local& one) { one *= softer; });
+  const std::array<ComplianceField::Local, 4> told = field->atFour(spots);
   return { told[0].body, { told[1].body, told[2].body, told[3].body } };
 }
 
@@ -43,23 +42,28 @@ std::shared_ptr<const SeriesBody> seriesBodyOf(
   {
     return nullptr;
   }
+  // of a map the law's own modulus says nothing
   const double young = field->youngModulus();
-  return std::make_shared<const SeriesBody>(SeriesBody{ .field = std::move(field),
-    .law = SeriesLaw(law),
-    .softer = young > 0.0 ? law.material().youngModulus / young : 1.0 });
+  const Material& tissue = law.material();
+  const double modulus =
+    makeMaterial(young > 0.0 ? young : tissue.youngModulus, tissue.poissonRatio).contactModulus();
+  return std::make_shared<const SeriesBody>(
+    SeriesBody{ .field = std::move(field), .law = SeriesLaw(law.tip(), modulus) });
 }
 
 Rule seriesRule(const SeriesBody& body, const ForceLaw& law, const SeriesContact& contact) noexcept
 {
-  constexpr double kPoisson = 0.1; // by which E* G0 of a layer changes by some percent
-  const double other =
-    std::abs(law.material().poissonRatio - body.field->poissonRatio()) / kPoisson;
-  ComplianceField::Local local = body.field->at(contact.center, contact.normal);
-  local *= body.softer;
-  return { "organ", "-",
-    std::max({ local.doubtful, kWidest * other, contact.width(body.law, local.body) }), kWidest,
+  const double other = kWidest * body.otherPoisson(law) / SeriesBody::kOtherPoisson;
+  const ComplianceField::Local local = body.field->at(contact.center, contact.normal);
+  if (other > kWidest)
+  {
+    return { "organ", "-", other, kWidest,
+      "the organ file is of another Poisson's ratio than the tissue: forces are off by some "
+      "percent; palp organ --poisson makes one of it" };
+  }
+  return { "organ", "-", std::max(local.doubtful, contact.width(body.law, local.body)), kWidest,
     "an edge, a thin place or a support is too near for the cells of the organ file or for so wide "
-    "a contact, or that is of another Poisson's ratio" };
+    "a contact" };
 }
 
 } // namespace palp

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -27,7 +28,15 @@ struct SeriesBody
 {
   std::shared_ptr<const ComplianceField> field; ///< never null
   SeriesLaw law;
-  double softer = 1.0; ///< modulus of the law over that which the field is told by [-]
+
+  /// Poisson's ratio from that of the file on which forces are off by several percent [-].
+  static constexpr double kOtherPoisson = 0.05;
+
+  /// How far the tissue's is from that of the file [-].
+  [[nodiscard]] double otherPoisson(const ForceLaw& tissue) const noexcept
+  {
+    return std::abs(tissue.material().poissonRatio - field->poissonRatio());
+  }
 
   /// The body below a tool, and below the same a step aside along each axis.
   struct Below

@@ -73,14 +73,14 @@ std::vector<double> widenedOf(const CubicSpline& radii, const SplineAxis& axis)
 
 } // namespace
 
-SeriesLaw::SeriesLaw(const ForceLaw& law)
-  : modulus_(law.material().contactModulus())
-  , isSphere_(std::holds_alternative<SphereTip>(law.tip()))
-  , round_(roundnessOf(law.tip()))
+SeriesLaw::SeriesLaw(const Tip& tip, double modulus)
+  : modulus_(modulus)
+  , isSphere_(std::holds_alternative<SphereTip>(tip))
+  , round_(roundnessOf(tip))
   , axis_{ 0.0, 1.0, kIntervals }
 {
-  const HalfSpace contact(law.tip());
-  const double deepest = kDeepest * baseRadius(law.tip());
+  const HalfSpace contact(tip);
+  const double deepest = kDeepest * baseRadius(tip);
   axis_.last = std::cbrt(contact(deepest).force);
   radii_.emplace(axis_, radiiOf(contact, axis_.last, deepest));
   widened_.emplace(axis_, widenedOf(*radii_, axis_));

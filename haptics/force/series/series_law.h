@@ -36,8 +36,9 @@ struct SeriesResponse
 class SeriesLaw
 {
 public:
-  /// @param law  of the contact
-  explicit SeriesLaw(const ForceLaw& law);
+  /// @param tip      that is pressed
+  /// @param modulus  E* that the bodies are told by [Pa]
+  SeriesLaw(const Tip& tip, double modulus);
 
   /// @param contact  callable as Response(double depth) noexcept: the contact by itself; its force
   ///                 grows with the depth
@@ -79,10 +80,10 @@ public:
     return halved(contact, body, depth);
   }
 
-  /// Radius of the tip at its apex [m]; 0: sharp or flat.
-  [[nodiscard]] double roundness() const noexcept
+  /// E* that the bodies are told by [Pa].
+  [[nodiscard]] double modulus() const noexcept
   {
-    return round_;
+    return modulus_;
   }
 
   /// By which part of the contact's radius the pressure would move to the stiffer side [-]; what
@@ -209,7 +210,7 @@ private:
 
   double modulus_; // E* [Pa]
   bool isSphere_;
-  double round_;    // as roundness
+  double round_;    // radius of the tip at its apex [m]; 0: sharp or flat
   SplineAxis axis_; // of the cube root of f
   std::optional<CubicSpline> radii_;
   std::optional<CubicSpline> widened_;

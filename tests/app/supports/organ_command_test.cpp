@@ -109,7 +109,7 @@ TEST(OrganCommand, OfAThinPlateIsThatOfTheLayerOrSaysSo)
 // 10 mm cells of the block, from the folder
 std::string blockFile(const std::filesystem::path& file)
 {
-  return PALP_PROGRAM " organ " PALP_SHARE "/meshes/block_50.vtp --cell 10mm "
+  return PALP_PROGRAM " organ " PALP_SHARE "/meshes/block_50.vtp --cell 10mm --poisson 0.45 "
                       "--support bonded:box:-60,-60,-55:60,60,-45 --out " +
     file.string();
 }
@@ -132,6 +132,13 @@ TEST(OrganCommand, MakesAFileThatARunFeels)
     "--poisson 0.45 --samples-only --out " +
     out.string() + " --organ " + file.string());
   ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err.find("Poisson"), std::string::npos) << run.err;
+  const test::Finished other = test::runCommand(PALP_PROGRAM
+    " run " PALP_SHARE "/meshes/block_50.vtp --at 10,5,0 --depth 4mm --samples-only --out " +
+    (folder.path() / "other").string() + " --organ " + file.string());
+  EXPECT_NE(
+    other.err.find("of a Poisson's ratio of 0.45, and the tissue of 0.33"), std::string::npos)
+    << other.err;
   const test::CsvTable samples = test::readCsv(out / "samples.csv");
   // the row says of what its depth is made: Sneddon's sphere in series with the body
   const double modulus = 50e3 / (1.0 - 0.45 * 0.45);
@@ -202,10 +209,11 @@ TEST(OrganCommand, AFileIsOfTheSupportsThatWerePainted)
   };
   const std::string support = " --support bonded:points:" + (folder.path() / "rest.csv").string();
   const std::string organ = (folder.path() / "block.organ").string();
-  const auto make = [&]
+  const auto make = [&](const std::string& more = "")
   {
-    return test::runCommand(PALP_PROGRAM " organ " PALP_SHARE "/meshes/block_50.vtp --cell 16mm" +
-      support + " --out " + organ);
+    return test::runCommand(PALP_PROGRAM " organ " PALP_SHARE
+                                         "/meshes/block_50.vtp --poisson 0.45 --cell 16mm" +
+      support + " --out " + organ + more);
   };
   const auto run = [&](const std::string& more)
   {
@@ -223,7 +231,10 @@ TEST(OrganCommand, AFileIsOfTheSupportsThatWerePainted)
   EXPECT_NE(run(support).err.find("not in the force"), std::string::npos);
   paint(0.0);
   EXPECT_EQ(run(" --organ " + organ + support).code, 2) << "other points than it was made of";
-  const test::Finished anew = make();
+  const test::Finished kept = make();
+  EXPECT_EQ(kept.code, 2);
+  EXPECT_NE(kept.err.find("--overwrite"), std::string::npos) << kept.err;
+  const test::Finished anew = make(" --overwrite");
   EXPECT_EQ(anew.err.find("already"), std::string::npos) << anew.err;
   EXPECT_EQ(anew.code, 0) << anew.err;
   EXPECT_EQ(run(" --organ " + organ + support).code, 0);
@@ -304,7 +315,7 @@ TEST(OrganCommand, APlaceWithoutAnAnswerKeepsNoOtherFromIts)
   EXPECT_EQ(alone.code, 0) << alone.err;
   EXPECT_EQ(both.code, 2);
   EXPECT_EQ(both.out, alone.out);
-  EXPECT_NE(both.err.find("49.9 mm, 49.9 mm"), std::string::npos) << both.err;
+  EXPECT_NE(both.err.find("49.9,49.9,0 mm"), std::string::npos) << both.err;
 }
 
 TEST(OrganCommand, RefusesInOneSentence)

@@ -20,7 +20,7 @@ std::string blockFile(const std::filesystem::path& file, const std::string& cell
 {
   return PALP_PROGRAM " organ " PALP_SHARE "/meshes/block_50.vtp "
                       "--support bonded:box:-60,-60,-55:60,60,-45 --cell " +
-    cell + " --out " + file.string();
+    cell + " --poisson 0.45 --out " + file.string();
 }
 
 // of a radius of 30 mm on a cylinder of 24 mm, its pole at z = 0 and 30 mm above the base
@@ -115,7 +115,8 @@ TEST(OrganCommand, OfADomeIsThatOfElements)
   const auto file = folder.path() / "dome.obj";
   writeDome(file);
   const test::Finished run = test::runCommand(PALP_PROGRAM " organ " + file.string() +
-    " --unit mm --cell 5mm --support bonded:direction:0,0,-1:30deg --at 0,0,0 --depth 1:4:1mm");
+    " --unit mm --cell 5mm --support bonded:direction:0,0,-1:30deg --at 0,0,0 --depth 1:4:1mm "
+    "--poisson 0.45");
   ASSERT_EQ(run.code, 0) << run.err;
   const test::CsvTable elements =
     test::readCsv(PALP_SOURCE_DIR "/data/reference/organ_cap_R30.csv");

@@ -222,7 +222,8 @@ protected:
 
   test::Finished organ(const std::string& arguments)
   {
-    return test::runCommand(PALP_PROGRAM " organ " + block_ + " --cell 5mm " + arguments);
+    return test::runCommand(
+      PALP_PROGRAM " organ " + block_ + " --cell 5mm --poisson 0.45 " + arguments);
   }
 
   static std::vector<double> columnOf(const std::string& csv, int column)
@@ -274,7 +275,7 @@ TEST_F(SupportCommand, HoldsALabelByAnotherOfItsImage)
   const auto pressed = [&](const std::string& support)
   {
     return test::runCommand(PALP_PROGRAM " organ " + image.string() +
-      " --label 3 --cell 4mm --depth 2:4:2mm --at=1,1,-4 --support " + support);
+      " --label 3 --cell 4mm --poisson 0.45 --depth 2:4:2mm --at=1,1,-4 --support " + support);
   };
   const test::Finished finished = pressed("bonded:label:7");
   ASSERT_EQ(finished.code, 0) << finished.err;
@@ -282,6 +283,12 @@ TEST_F(SupportCommand, HoldsALabelByAnotherOfItsImage)
   ASSERT_EQ(forces.size(), 2U);
   EXPECT_NEAR(forces[0], 0.94715239, 0.02 * forces[0]);
   EXPECT_NEAR(forces[1], 2.9208349, 0.02 * forces[1]);
+  for (const char* itself : { "bonded:label:3", "sliding:label:0" })
+  {
+    const test::Finished refused = pressed(itself);
+    EXPECT_EQ(refused.code, 2) << itself;
+    EXPECT_NE(refused.err.find("does not rest"), std::string::npos) << refused.err;
+  }
   const test::Finished missing = pressed("bonded:label:9");
   EXPECT_EQ(missing.code, 2);
   EXPECT_NE(missing.err.find('9'), std::string::npos) << missing.err;
