@@ -320,6 +320,7 @@ void followTissue(Calibration& calibration, const Scene& scene)
           noduleContactOf(sample.contact), law(contactGeometryOf(sample.contact)), extent);
       };
     }
+    its.tip = organ.law.tip();
     its.style.motion = organ.series != nullptr ? organ.series->field->motion() : nullptr;
     its.style.loads = [tissue = organ](const Sample& sample, double depth)
     { return std::vector{ organLoadOf(sample, depth, tissue) }; };

@@ -30,9 +30,17 @@ struct Calibration
 
   double layer = 0.0; ///< thickness that a fitted style was computed for [m]; 0: nothing is fitted
 
-  /// R_d at a sample, of its dent without what the body gives way as a whole [m].
+  Tip tip{}; ///< of the scene whose tissue is followed
+
+  /// R_d at a sample, of its dent without what the body gives way as a whole: as pictures have it
+  /// [m].
   [[nodiscard]] double extentRadius(const Sample& sample) const
   {
+    if (style.motion != nullptr)
+    {
+      const auto extentAt = [this](double depth) { return extents.extentRadius(depth); };
+      return pressOf(sample, tip, extentAt, style).extentRadius;
+    }
     const double given = sample.localDepth > 0.0 ? sample.contact.depth - sample.localDepth : 0.0;
     const double plain = extents.extentRadius(drawnDepth(sample) - std::max(0.0, given));
     return style.extent ? style.extent(sample, plain) : plain;

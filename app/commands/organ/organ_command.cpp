@@ -265,8 +265,7 @@ void addOrganCommand(CLI::App& app)
       all->cell = parseWithin(text, Quantity::Length, { 0.1_mm, 0.1, "0.1mm to 100mm" }, "--cell");
     });
   command->footer(
-    "What palp run --organ --law corrected --material linear feels, solved for around places "
-    "only:\n"
+    "What palp run --organ --law corrected --material linear feels, solved around places only:\n"
     "the contact in series with the body's own compliance, by finite elements in cubes that its\n"
     "surface cuts: linear, frictionless. constant and slope: E* of --young\n"
     "times what the body adds. By cubes of 4 mm bonded slabs of 20 to 50 mm come out within 1.2 %\n"

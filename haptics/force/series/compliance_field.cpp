@@ -217,7 +217,7 @@ ComplianceField::Blend<kSpots> ComplianceField::blendAt(
     sums.row(kBend) += weight * place.bend;
     sums.row(kDoubtful) += weight * place.doubtful;
   }
-  if (!(all[0] > 0.0F))
+  if (!(all.minCoeff() > 0.0F))
   {
     sums.setZero();
     sums.row(kDoubtful) = 1.0F;
@@ -237,8 +237,10 @@ std::array<ComplianceField::Local, kSpots> ComplianceField::tellAt(
     {
       Spot& spot = spots[static_cast<std::size_t>(k)];
       const Eigen::Vector3f outward = blend.col(k).template tail<3>().matrix().normalized();
-      spot.center += static_cast<double>(blend(kPart, k)) * spot.height *
+      const Eigen::Vector3d leaning = static_cast<double>(blend(kPart, k)) * spot.height *
         (spot.normal - outward.template cast<double>());
+      // beyond an edge no further than places reach
+      spot.center += leaning / std::sqrt(1.0 + leaning.squaredNorm() / (cell_ * cell_));
     }
     blend = blendAt<kSpots>(spots);
   }

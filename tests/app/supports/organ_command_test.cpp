@@ -305,7 +305,7 @@ TEST(OrganCommand, WhatIsFarFromTheToolMovesAsTheBodyDoes)
   }
 }
 
-// at a corner there is too little surface; in the middle the answer is what it is alone
+// at a corner a tool slides off; in the middle the answer is what it is alone
 TEST(OrganCommand, APlaceWithoutAnAnswerKeepsNoOtherFromIts)
 {
   const std::string organ = PALP_PROGRAM " organ " PALP_SHARE "/meshes/block_50.vtp --cell 10mm "
@@ -314,7 +314,7 @@ TEST(OrganCommand, APlaceWithoutAnAnswerKeepsNoOtherFromIts)
   const test::Finished both = test::runCommand(organ + "--at 49.9,49.9,0 --at 0,0,0");
   EXPECT_EQ(alone.code, 0) << alone.err;
   EXPECT_EQ(both.code, 2);
-  EXPECT_EQ(both.out, alone.out);
+  EXPECT_TRUE(both.out.ends_with(alone.out.substr(alone.out.find('\n')))) << both.out;
   EXPECT_NE(both.err.find("49.9,49.9,0 mm"), std::string::npos) << both.err;
 }
 

@@ -41,8 +41,8 @@ Body wideAtAnEdge(const char* file, const Tip& tip)
     .tip = tip };
 }
 
-// of 100 to 163 degrees it is an edge, too
-Body besideObtuseEdge(const char* file, double place, double lean, const Tip& tip)
+// of 100 to 163 degrees it is an edge, too; of 60 a sharp one
+Body besideEdge(const char* file, double place, double lean, const Tip& tip)
 {
   return { .file = file,
     .size = { 0.07, 0.08, 0.04 },
@@ -110,9 +110,9 @@ INSTANTIATE_TEST_SUITE_P(Organ, OrganScene,
     wideAtAnEdge("edge90_9mm_paraboloid20", ParaboloidTip{ 20.0_mm }),
     wideAtAnEdge("edge90_9mm_cone70", ConeTip{ 70.0_deg, 20.0_mm }),
     wideAtAnEdge("edge90_9mm_truncated75", TruncatedConeTip{ 75.0_deg, 4.0_mm, 20.0_mm }),
-    besideObtuseEdge("edge140_15mm_sphere60", -20.0_mm, 50.0_deg, SphereTip{ 60.0_mm }),
-    besideObtuseEdge("edge150_9mm_sphere60", -26.0_mm, 60.0_deg, SphereTip{ 60.0_mm }),
-    besideObtuseEdge("edge150_9mm_sphere10", -26.0_mm, 60.0_deg, SphereTip{ 10.0_mm }),
+    besideEdge("edge140_15mm_sphere60", -20.0_mm, 50.0_deg, SphereTip{ 60.0_mm }),
+    besideEdge("edge150_9mm_sphere60", -26.0_mm, 60.0_deg, SphereTip{ 60.0_mm }),
+    besideEdge("edge150_9mm_sphere10", -26.0_mm, 60.0_deg, SphereTip{ 10.0_mm }),
     besideValley("valley135_9mm_sphere20", 45.0_deg),
     besideValley("valley150_9mm_sphere20", 30.0_deg)),
   [](const auto& body)
@@ -162,6 +162,23 @@ TEST(OrganEdge, TheLateralForceIsTheSlopeOfTheEnergy)
       expectSlopeOfEnergy(scene, x, depth);
     }
   }
+}
+
+// off an edge of 60 degrees the tool's foot on the face comes to lie beyond it, in the air
+TEST(OrganEdge, ASlideOffItNeverJumps)
+{
+  const Scene scene = sceneOf(besideEdge("", -35.0_mm, -30.0_deg, SphereTip{ 10.0_mm }), 24.0_mm);
+  const double first = step(scene, at(-25.0_mm, 4.0_mm)).response.force;
+  double before = first;
+  double x = -25.0_mm;
+  for (; before > 0.0 && x > -55.0_mm; x -= 0.02_mm)
+  {
+    const double now = step(scene, at(x, 4.0_mm)).response.force;
+    ASSERT_NEAR(now, before, 5e-3 * first) << x;
+    before = now;
+  }
+  EXPECT_LT(x, -40.0_mm);
+  EXPECT_EQ(before, 0.0);
 }
 
 TEST(OrganLobe, ASlideNeverJumps)

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <span>
 #include <vector>
 
 namespace palp
@@ -153,6 +154,27 @@ TEST_P(ComplianceFieldAtARim, TellsFourAsOneByOne)
         expectSame(four[k].doubtful, doubtful);
       }
     });
+}
+
+// one of four may be within reach of a place and the next not
+TEST(ComplianceField, EndsWithoutALeapToNoNumber)
+{
+  const PlacedCompliance place{ .position = Vector3d::Zero(), .constant = 100.0 };
+  const ComplianceField field(std::span(&place, 1), kSpacing, 0.45);
+  for (double x = 2.0 * kSpacing; x < 2.5 * kSpacing; x += 1.0_um)
+  {
+    std::array<ComplianceField::Spot, 4> spots;
+    for (std::size_t k = 0; k < spots.size(); ++k)
+    {
+      spots[k] = { { x + 10.0_um * static_cast<double>(k), 0.0, 0.0 }, Vector3d::UnitZ(), 5.0_mm };
+    }
+    const std::array<ComplianceField::Local, 4> four = field.atFour(spots);
+    for (const ComplianceField::Local& one : four)
+    {
+      ASSERT_NEAR(one.body.constant, four[0].body.constant, 1e-3) << x;
+      ASSERT_EQ(one.body.constant == 0.0, one.doubtful == 1.0) << x;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, ComplianceFieldAtARim, testing::ValuesIn(kRims),
