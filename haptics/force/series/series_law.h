@@ -188,9 +188,9 @@ private:
       return std::array{ local + yield.depth, 1.0 + here.stiffness / modulus_ * yield.slope };
     };
     constexpr int kBisections = 40;
-    constexpr double kMost = 4.0; // of the depth
+    constexpr double kOutermost = 4.0; // of the depth
     double low = 0.0;
-    double high = kMost * depth;
+    double high = kOutermost * depth;
     for (int i = 0; i < kBisections; ++i)
     {
       const double middle = 0.5 * (low + high);
