@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <vtkPolyData.h>
@@ -128,17 +129,19 @@ void addRows(const OrganOptions& options, const PressedBody& pressed, const Scen
   (void)poseAt(at, point, options.depths.si.back(), scene); // says best why a place is none
   const OrganPlace place(pressed.model, pressed.supports, scene, point);
   const HalfSpace law(options.tip);
+  std::vector<std::vector<figures::Cell>> rows; // all of the place, or none
   for (const double depth : options.depths.si)
   {
     if (depth > 0.0)
     {
       const OrganPlace::Answer answer = place.at(poseAt(at, point, depth, place.scene()));
-      table.rows.push_back({ toMillimeters(point.position.x()), toMillimeters(point.position.y()),
+      rows.push_back({ toMillimeters(point.position.x()), toMillimeters(point.position.y()),
         toMillimeters(point.position.z()), answer.body.constant, answer.body.slope,
         toMillimeters(depth), answer.force, pressed.model.contactModulus() * law(depth).force,
         toMillimeters(answer.local), answer.remark });
     }
   }
+  std::ranges::move(rows, std::back_inserter(table.rows));
 }
 
 // a place without an answer does not keep the others from theirs

@@ -1,7 +1,5 @@
 #include "haptics/force/series/compliance_field.h"
 
-#include "haptics/numerics/smooth_step.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -54,13 +54,13 @@ std::shared_ptr<const SeriesBody> seriesBodyOf(
 Rule seriesRule(const SeriesBody& body, const ForceLaw& law, const SeriesContact& contact) noexcept
 {
   const double other = kWidest * body.otherPoisson(law) / SeriesBody::kOtherPoisson;
-  const ComplianceField::Local local = body.field->at(contact.center, contact.normal);
   if (other > kWidest)
   {
     return { "organ", "-", other, kWidest,
       "the organ file is of another Poisson's ratio than the tissue: forces are off by some "
       "percent; palp organ --poisson makes one of it" };
   }
+  const ComplianceField::Local local = body.field->at(contact.center, contact.normal);
   return { "organ", "-", std::max(local.doubtful, contact.width(body.law, local.body)), kWidest,
     "an edge, a thin place or a support is too near for the cells of the organ file or for so wide "
     "a contact" };
