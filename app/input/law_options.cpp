@@ -65,7 +65,10 @@ void LawOptions::addUncoatedTo(CLI::App& command)
   addChoice(command, "--law",
     "paper: Eqs. (2)-(5); exact: linear half-space; corrected: every factor that acts", kLawModes,
     mode);
-  addChoice(command, "--base", "Under the body, for --law corrected: bonded or slip", kBases, base);
+  addChoice(command, "--base",
+    "What the body lies on, for --law corrected: bonded, slip, or unknown, which is answered as "
+    "bonded and flagged where a free part of the body would bend",
+    kBases, base);
   addChoice(command, "--material", "Under large strain, for --law corrected: linear or neo-hookean",
     kMaterials, constitution);
 }
@@ -160,8 +163,7 @@ std::string describeLaw(const LawSettings& settings)
   {
     return settings.mode == LawMode::Paper ? "paper" : "exact";
   }
-  return std::string("corrected, ") + (settings.base == Base::Slip ? "slip" : "bonded") +
-    " base, " + (settings.constitution == ConstitutiveModel::Linear ? "linear" : "neo-hookean") +
+  return "corrected, " + kBases.at(static_cast<std::size_t>(settings.base)) + " base, " + (settings.constitution == ConstitutiveModel::Linear ? "linear" : "neo-hookean") +
     (settings.coatings.empty() ? "" : ", coated by " + describeCoatings(settings.coatings)) +
     (settings.relaxation.empty() ? ""
                                  : ", relaxing by " + describeRelaxation(settings.relaxation)) +

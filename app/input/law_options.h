@@ -21,7 +21,7 @@ namespace palp
 struct LawOptions
 {
   LawMode mode = LawMode::Paper;
-  Base base = Base::Bonded;
+  Base base = Base::Unknown;
   ConstitutiveModel constitution = ConstitutiveModel::NeoHookean;
   Coatings coatings{};
   PronySeries relaxation{};

@@ -115,7 +115,7 @@ Eigen::MatrixXi addNodes(Body& body, const std::vector<double>& us, const std::v
         body.base.push_back(count);
         body.heldDofs.push_back(2 * count + 1);
       }
-      if (i == 0 || (j == 0 && base == Base::Bonded))
+      if (i == 0 || (j == 0 && base != Base::Slip))
       {
         body.heldDofs.push_back(2 * count);
       }

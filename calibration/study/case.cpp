@@ -205,7 +205,7 @@ void check(const Case& study)
       " in this block");
   require(study.model == BodyModel::Axisymmetric || study.width == study.length,
     "--model: the volumetric block must be square; use --model axisymmetric");
-  require(study.base == Base::Bonded || study.model == BodyModel::Axisymmetric,
+  require(study.base != Base::Slip || study.model == BodyModel::Axisymmetric,
     "--base: the volumetric block is bonded; use --model axisymmetric");
   require(study.coatings.empty() || study.model == BodyModel::Axisymmetric,
     "--coating: the volumetric block takes none; use --model axisymmetric");

@@ -83,7 +83,7 @@ std::string describe(const Case& study, const Body& body, int digits)
       << kToolLine << toolInWords(study.tip, digits)
       << "; depth counted from its tip\n# block: " << toMillimeters(study.width) << " x "
       << toMillimeters(study.length) << " x " << toMillimeters(study.height) << " mm, base "
-      << (study.base == Base::Bonded ? "bonded" : "slipping")
+      << (study.base == Base::Slip ? "slipping" : "bonded")
       << ", sides free, frictionless\n# material: "
       << units::toKilopascals(study.material.youngModulus)
       << " kPa, nu = " << study.material.poissonRatio << ", " << name(study.energy) << ": "

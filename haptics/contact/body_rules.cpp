@@ -9,10 +9,10 @@
 namespace palp
 {
 
-Rule lobeRule(const Surface& surface, const Contact& contact) noexcept
+Rule lobeRule(const Surface& surface, const Contact& contact, Base base) noexcept
 {
   constexpr double kLobe = 2.0;  // of the thickness, the least extent of the body
-  constexpr double kPlate = 8.0; // likewise, the side of a square plate of its size
+  constexpr double kPlate = 3.0; // likewise, the side of a square plate of its size
   const BoxTree::Node& all = surface.tree().nodes().front();
   double least = std::numeric_limits<double>::infinity();
   double squares = 0.0;
@@ -24,11 +24,13 @@ Rule lobeRule(const Surface& surface, const Contact& contact) noexcept
   }
   const double wide = std::sqrt(0.5 * squares);
   return { "lobe", "-",
-    contact.touching() ? std::max(least / kLobe, wide / kPlate) / contact.thickness : 0.0, 1.0,
-    "thinner than half of the body, or than an eighth of its extent: where nothing holds it below "
-    "it bends, which its shape does not tell; right where it rests on its whole back, else palp "
-    "organ "
-    "and --organ take that into account" };
+    contact.touching() && base == Base::Unknown
+      ? std::max(least / kLobe, wide / kPlate) / contact.thickness
+      : 0.0,
+    1.0,
+    "thinner than half of the body, or than a third of its extent, and nobody says what is below: "
+    "a part that nothing holds bends, and is felt softer; --base says that it lies on something "
+    "rigid, palp organ and --organ take the bending into account" };
 }
 
 Rule openRule(const Contact& contact) noexcept

@@ -11,12 +11,13 @@ namespace palp
 /// Where nobody says what a body rests on, and the law takes it as held flat below the tool:
 /// whether it is so thin there that this matters.
 ///
-/// Half of the body, as a lobe of a thicker one; or an eighth of its extent, as a plate: clamped
-/// all around it gives way as much again as a contact of a fifth of its thickness.
+/// Half of the body, as a lobe of a thicker one; or a third of its extent: held at one end it gives
+/// way by bending and shear as much as a contact of a fifth of its thickness does, or more.
 ///
-/// @source    Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells, 1959, Sec. 19
+/// @source    Timoshenko, Strength of Materials I, 1955, Sec. 39 (cantilever, with shear)
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] Rule lobeRule(const Surface& surface, const Contact& contact) noexcept;
+[[nodiscard]] Rule lobeRule(
+  const Surface& surface, const Contact& contact, Base base) noexcept;
 
 /// Whether nothing is known of what lies behind the surface, which is open: the law then takes the
 /// body as without end. A bonded base 2, 6 and 10 contact radii below makes it 1.8, 1.2 and 1.1

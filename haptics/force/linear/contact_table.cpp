@@ -76,14 +76,15 @@ ContactTable::ContactTable(const Tip& tip)
     return;
   }
   firstLog_ = std::log(kShallowest * baseDepth_);
-  step_ = -std::log(kShallowest) / (kKnots - 1);
+  const double step = -std::log(kShallowest) / (kKnots - 1);
+  perStep_ = 1.0 / step;
 
   std::vector<double> logs(kKnots);
   for (int i = 0; i < kKnots; ++i)
   {
-    logs[static_cast<std::size_t>(i)] = firstLog_ + i * step_;
+    logs[static_cast<std::size_t>(i)] = firstLog_ + i * step;
   }
-  const std::vector<double> radii = contactRadii(tip, logs, step_, base_.radius);
+  const std::vector<double> radii = contactRadii(tip, logs, step, base_.radius);
   const std::vector<double> slopes = monotoneSlopes(logs, radii);
 
   // integrals of g s^(2k): below the first knot a ~ depth^p in closed form, then Gauss
@@ -101,41 +102,42 @@ ContactTable::ContactTable(const Tip& tip)
     const double depth = std::exp(logs[i]);
     Knot& knot = knots_[i];
     knot.value.radius = radii[i];
-    knot.slope.radius = slopes[i];
+    const double rise = step * slopes[i];
+    knot.slope.radius = rise;
     knot.value.force = 2.0 * (depth * radii[i] - sums[0]);
-    knot.slope.force = 2.0 * depth * radii[i];
+    knot.slope.force = 2.0 * step * depth * radii[i];
     double scale = 1.0;
     for (std::size_t k = 0; k < kMoments; ++k)
     {
       const double moment = sums[k] / scale;
       knot.value.moments[k] = moment;
-      knot.slope.moments[k] =
-        (depth - 2.0 * static_cast<double>(k) * moment / radii[i]) * slopes[i];
+      knot.slope.moments[k] = (depth - 2.0 * static_cast<double>(k) * moment / radii[i]) * rise;
       scale *= radii[i] * radii[i];
     }
   }
   base_ = knots_.back().value;
 }
 
-ContactTable::Entry ContactTable::operator()(double depth) const noexcept
+ContactTable::Entry ContactTable::operator()(double depth, std::size_t moments) const noexcept
 {
   if (depth >= baseDepth_)
   {
     return base_;
   }
   const double log = std::log(depth);
-  const double along = (log - firstLog_) / step_;
+  const double along = (log - firstLog_) * perStep_;
   Entry entry;
   if (along < 0.0)
   {
     // a ~ depth^p
     const Knot& first = knots_.front();
-    const double exponent = first.slope.radius / first.value.radius;
+    const double exponent = first.slope.radius * perStep_ / first.value.radius;
     const double shrink = std::exp(exponent * (log - firstLog_));
     entry.radius = first.value.radius * shrink;
+    entry.radiusSlope = exponent * entry.radius / depth;
     const double scale = shrink * depth / std::exp(firstLog_);
     entry.force = first.value.force * scale;
-    for (std::size_t k = 0; k < kMoments; ++k)
+    for (std::size_t k = 0; k < moments; ++k)
     {
       entry.moments[k] = first.value.moments[k] * scale;
     }
@@ -146,13 +148,17 @@ ContactTable::Entry ContactTable::operator()(double depth) const noexcept
   const Knot& low = knots_[i];
   const Knot& high = knots_[i + 1];
   const auto read = [&](double y0, double y1, double slope0, double slope1)
-  { return hermite(fraction, step_, y0, y1, slope0, slope1).value; };
-  entry.force = read(low.value.force, high.value.force, low.slope.force, high.slope.force);
-  entry.radius = read(low.value.radius, high.value.radius, low.slope.radius, high.slope.radius);
-  for (std::size_t k = 0; k < kMoments; ++k)
+  { return hermite(fraction, 1.0, y0, y1, slope0, slope1); };
+  entry.force = read(low.value.force, high.value.force, low.slope.force, high.slope.force).value;
+  const Cubic radius =
+    read(low.value.radius, high.value.radius, low.slope.radius, high.slope.radius);
+  entry.radius = radius.value;
+  entry.radiusSlope = radius.slope * perStep_ / depth;
+  for (std::size_t k = 0; k < moments; ++k)
   {
-    entry.moments[k] = read(
-      low.value.moments[k], high.value.moments[k], low.slope.moments[k], high.slope.moments[k]);
+    entry.moments[k] =
+      read(low.value.moments[k], high.value.moments[k], low.slope.moments[k], high.slope.moments[k])
+        .value;
   }
   return entry;
 }

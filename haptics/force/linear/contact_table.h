@@ -3,6 +3,7 @@
 #include "haptics/tip/tip.h"
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace palp
@@ -21,17 +22,19 @@ public:
   {
     double force = 0.0;                        ///< F / E* on a half-space [m^2]
     double radius = 0.0;                       ///< a [m]
+    double radiusSlope = 0.0;                  ///< da / ddepth [-]; 0 once the base is in contact
     std::array<double, kMoments> moments = {}; ///< k: int_0^a g(s) (s/a)^(2k) ds [m^2]
   };
 
   /// @param tip  checked
   explicit ContactTable(const Tip& tip);
 
-  /// @param depth  [m], more than 0; at most baseDepth() is read
+  /// @param depth    [m], more than 0; at most baseDepth() is read
+  /// @param moments  how many of them are asked for; 1 is all that a half-space needs
   /// @return       smooth and monotone in depth, relative error of the force below 1e-6, within
   ///               4 % of the depth at which a corner of a profile is reached below 6e-5
   /// @realtime     pure; no allocation, no lock, no exception
-  [[nodiscard]] Entry operator()(double depth) const noexcept;
+  [[nodiscard]] Entry operator()(double depth, std::size_t moments = kMoments) const noexcept;
 
   /// Depth at which the whole base is in contact; for a sphere where a is R but for 1e-9 [m].
   [[nodiscard]] double baseDepth() const noexcept
@@ -43,12 +46,12 @@ private:
   struct Knot
   {
     Entry value;
-    Entry slope; // d value / d log(depth)
+    Entry slope; // from knot to knot
   };
 
   double baseDepth_;
   double firstLog_ = 0.0;   // log of the first knot's depth
-  double step_ = 0.0;       // in log(depth)
+  double perStep_ = 0.0;    // one over that of log(depth)
   std::vector<Knot> knots_; // none where the base touches at once
   Entry base_;              // at baseDepth()
 };

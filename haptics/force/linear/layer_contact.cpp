@@ -79,6 +79,40 @@ PunchSolution LayerContact::solution(double radius, double thickness) const noex
   return phi;
 }
 
+// phi is 1 there; by Newton, whose last step moves the radius by its slope and the force by its
+// bend
+std::optional<LinearContact> LayerContact::onHalfSpace(
+  double depth, double curvature) const noexcept
+{
+  constexpr int kSteps = 4;       // two are usual
+  constexpr double kLast = 1e-3;  // of the depth; the force errs by its cube
+  constexpr double kLeast = 0.25; // of the slope of the depth by that of a flat body
+  double flat = depth;
+  for (int i = 0; i < kSteps && flat > 0.0 && flat < table_.baseDepth(); ++i)
+  {
+    const ContactTable::Entry entry = table_(flat, 1);
+    const double a = entry.radius;
+    const double more = curvature * a * a;
+    const double left = depth - flat - more;
+    const double slope = 1.0 + 2.0 * curvature * a * entry.radiusSlope;
+    if (slope < kLeast)
+    {
+      break;
+    }
+    const double step = left / slope;
+    const double wider = entry.radiusSlope * step;
+    if (std::abs(step) < kLast * flat)
+    {
+      return LinearContact{ .force =
+                              2.0 * (depth * a - entry.moments[0] - more * a / 3.0) + left * wider,
+        .radius = a + wider,
+        .stiffness = 2.0 * (a + wider) };
+    }
+    flat += step;
+  }
+  return std::nullopt;
+}
+
 LayerContact::Trial LayerContact::trial(
   double halfSpaceDepth, double thickness, double curvature) const noexcept
 {
@@ -109,6 +143,13 @@ LinearContact LayerContact::operator()(
 {
   const double base = table_.baseDepth();
   const double kappa = allowedCurvature(curvature);
+  if (std::isinf(thickness) && std::holds_alternative<Layer>(body_))
+  {
+    if (const auto contact = onHalfSpace(depth, kappa))
+    {
+      return *contact;
+    }
+  }
   double shallow = 0.0; // half-space depths between which the depth is met
   double deep = base;
   double halfSpaceDepth = std::min(depth, base);

@@ -5,6 +5,7 @@
 #include "haptics/force/linear/half_space.h"
 #include "haptics/force/linear/layer.h"
 
+#include <optional>
 #include <variant>
 
 namespace palp
@@ -71,6 +72,10 @@ private:
   };
 
   [[nodiscard]] PunchSolution solution(double radius, double thickness) const noexcept;
+  // nothing where steps do not get there: the base is in contact, or the surface as hollow as may
+  // be
+  [[nodiscard]] std::optional<LinearContact> onHalfSpace(
+    double depth, double curvature) const noexcept;
   [[nodiscard]] Trial trial(
     double halfSpaceDepth, double thickness, double curvature) const noexcept;
 

@@ -55,7 +55,7 @@ Eigen::Vector4d amplitudes(double k, double nu, Base base)
   equations.row(0) = lambda * top.dilation + 2.0 * shear * top.downSlope;
   equations.row(1) = shear * top.shear;
   equations.row(2) = bottom.down;
-  equations.row(3) = base == Base::Bonded ? bottom.across : bottom.shear;
+  equations.row(3) = base == Base::Slip ? bottom.shear : bottom.across;
   Eigen::Vector4d layer = equations.partialPivLu().solve(Eigen::Vector4d(-1.0, 0.0, 0.0, 0.0));
   layer.head<2>() -=
     equations.topLeftCorner<2, 2>().partialPivLu().solve(Eigen::Vector2d(-1.0, 0.0));

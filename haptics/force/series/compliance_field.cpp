@@ -31,10 +31,18 @@ Lanes fartherOf(const Lanes& past) noexcept
   return kNearest + 0.5F * (past + (past * past + kRound * kRound).sqrt());
 }
 
-// over an edge, to which faces lean from either side, less than 1
-double oneFaceOf(const Eigen::Vector3d& outward)
+// of columns
+template <typename Points>
+auto lengthsOf(const Points& points) noexcept
 {
-  return std::max(0.0, 2.0 * outward.squaredNorm() - 1.0);
+  return points.square().colwise().sum().sqrt().eval();
+}
+
+// each column's part along one
+template <typename Rows>
+[[gnu::always_inline]] inline auto along(const Eigen::Vector3f& one, const Rows& others) noexcept
+{
+  return (one[0] * others.row(0) + one[1] * others.row(1) + one[2] * others.row(2)).eval();
 }
 
 // of what is never negative, and spread over powers of ten beside an edge
@@ -84,6 +92,12 @@ ComplianceField::Cell ComplianceField::cellOf(const Eigen::Vector3d& place) cons
     static_cast<int>(std::floor(place.z() / cell_)) };
 }
 
+ComplianceField::Range ComplianceField::near(const Eigen::Vector3d& place) const noexcept
+{
+  const auto found = cells_.find(keyOf(cellOf(place)));
+  return found != cells_.end() ? found->second : Range{};
+}
+
 // each cell knows every place that reaches into it, so that a contact looks at one cell only
 void ComplianceField::sortIntoCells()
 {
@@ -99,10 +113,15 @@ void ComplianceField::sortIntoCells()
   for (auto& [key, cell] : cells_)
   {
     const std::uint32_t first = std::exchange(count, count + cell.last);
-    cell = { first, first };
+    cell = { first, first, false };
   }
   near_.resize(count);
-  forReached([this](Range& cell, std::uint32_t i) { near_[cell.last++] = i; });
+  forReached(
+    [this](Range& cell, std::uint32_t i)
+    {
+      near_[cell.last++] = i;
+      cell.isBeside |= places_[i].beside > 0.0F;
+    });
 }
 
 template <typename Visit>
@@ -130,12 +149,6 @@ float ComplianceField::constantOf(const Place& place) noexcept
   return place.beside > 0.0F ? place.rest + place.wedge / place.beside : place.rest;
 }
 
-float ComplianceField::constantOf(const Blend<1>& told) noexcept
-{
-  return told[kPart] > 0.0F ? told[kRest] + told[kWedge] * told[kPart] / told[kBeside]
-                            : told[kRest];
-}
-
 // what blending evens out is added beforehand, so that it goes through the places' values
 void ComplianceField::sharpen()
 {
@@ -147,11 +160,12 @@ void ComplianceField::sharpen()
     for (std::size_t i = 0; i < next.size(); ++i)
     {
       const Place& one = wanted[i];
-      const Blend<1> told =
-        blendAt<1>({ Spot{ one.position.cast<double>(), one.normal.cast<double>() } });
+      const Around<1> spot({ Spot{ one.position.cast<double>(), one.normal.cast<double>() } });
+      const Blend<1> told = blendAt<1>(spot);
+      const auto constant = static_cast<float>(localsOf<1>(told)[0].body.constant);
       const float beside = told[kPart];
       const bool isClose = told[kBeside] < kClose * static_cast<float>(cell_) * beside;
-      next[i].rest += isClose ? one.rest - told[kRest] : constantOf(one) - constantOf(told);
+      next[i].rest += isClose ? one.rest - told[kRest] : constantOf(one) - constant;
       next[i].slope *= ratioOf((1.0F - beside) * one.slope, told[kSlope]);
       next[i].bend += one.bend - told[kBend];
       next[i].wedge *= ratioOf(beside * one.wedge, told[kWedge]);
@@ -161,60 +175,82 @@ void ComplianceField::sharpen()
   }
 }
 
-// by a weight of Wendland's, 1 at a place and 0 from its reach on
 template <int kSpots>
-ComplianceField::Blend<kSpots> ComplianceField::blendAt(
-  const std::array<Spot, kSpots>& spots) const noexcept
+ComplianceField::Around<kSpots>::Around(const std::array<Spot, kSpots>& spots) noexcept
+  : origin(spots[0].center)
 {
-  using Lanes = Eigen::Array<float, 1, kSpots>;
-  using Points = Rows<3, kSpots>;
-  const auto found = cells_.find(keyOf(cellOf(spots[0].center)));
-  const Range range = found != cells_.end() ? found->second : Range{};
-  const Eigen::Vector3d origin = spots[0].center;
-  Points centers; // from there
-  Points normals;
   for (int k = 0; k < kSpots; ++k)
   {
     const Spot& spot = spots[static_cast<std::size_t>(k)];
-    centers.col(k) = (spot.center - origin).array().cast<float>();
-    normals.col(k) = spot.normal.array().cast<float>();
+    centers.col(k) = (spot.center - origin).array().template cast<float>();
+    normals.col(k) = spot.normal.array().template cast<float>();
+    heights[k] = static_cast<float>(spot.height);
   }
-  Blend<kSpots> sums = Blend<kSpots>::Zero();
-  Lanes all = Lanes::Zero();
+}
+
+template <int kSpots>
+void ComplianceField::Around<kSpots>::move(const Rows<3, kSpots>& way) noexcept
+{
+  const Eigen::Array3f first = way.col(0);
+  origin += first.matrix().template cast<double>();
+  centers += way.colwise() - first;
+}
+
+// by a weight of Wendland's, 1 at a place and 0 from its reach on
+template <int kSpots, typename Visit>
+ComplianceField::Lanes<kSpots> ComplianceField::forNear(
+  const Around<kSpots>& spots, const Range& range, const Visit& visit) const noexcept
+{
+  const Eigen::Vector3f origin = spots.origin.template cast<float>();
+  const Eigen::Vector3f normal = spots.normals.col(0);
+  constexpr float kTurned = 0.1F; // more than the spots' normals differ
+  Lanes<kSpots> all = Lanes<kSpots>::Zero();
   for (std::uint32_t k = range.first; k < range.last; ++k)
   {
     const Place& place = places_[near_[k]];
-    const Eigen::Vector3f to = (origin - place.position.cast<double>()).cast<float>();
-    if (to.squaredNorm() >= reach_ * reach_)
+    const Eigen::Vector3f to = origin - place.position;
+    if (to.squaredNorm() >= reach_ * reach_ || place.normal.dot(normal) < kAskew - kTurned)
     {
       continue;
     }
-    const auto along = [](const Eigen::Vector3f& one, const Points& other)
-    { return Lanes(one[0] * other.row(0) + one[1] * other.row(1) + one[2] * other.row(2)); };
-    const Points away = centers.colwise() + to.array();
-    const Lanes rest = (1.0F - perReach_ * away.square().colwise().sum().sqrt()).max(0.0F);
+    const Rows<3, kSpots> away = spots.centers.colwise() + to.array();
+    const Lanes<kSpots> rest = (1.0F - perReach_ * lengthsOf(away)).max(0.0F);
     constexpr float kTurns = 1.0F / (kFacing - kAskew);
-    const Lanes facing = (kTurns * (along(place.normal, normals) - kAskew)).max(0.0F).min(1.0F);
-    const Lanes weight =
+    const Lanes<kSpots> facing =
+      (kTurns * (along(place.normal, spots.normals) - kAskew)).max(0.0F).min(1.0F);
+    const Lanes<kSpots> weight =
       facing * facing * (3.0F - 2.0F * facing) * rest.square().square() * (5.0F - 4.0F * rest);
     all += weight;
-    sums.row(kPart) += weight * (place.beside > 0.0F ? 1.0F : 0.0F);
-    sums.template bottomRows<3>().matrix() += place.normal * weight.matrix();
-    if (place.beside > 0.0F)
-    {
-      sums.row(kRest) += weight * place.rest;
-      sums.row(kWedge) += weight * place.wedge;
-      sums.row(kBeside) +=
-        weight * place.beside * fartherOf<Lanes>(along(place.edge, away) + (1.0F - kNearest));
-    }
-    else
-    {
-      sums.row(kRest) += weight * (place.rest + along(place.gradient, away));
-      sums.row(kSlope) += weight * place.slope;
-    }
-    sums.row(kBend) += weight * place.bend;
-    sums.row(kDoubtful) += weight * place.doubtful;
+    visit(place, away, weight);
   }
+  return all;
+}
+
+template <int kSpots>
+ComplianceField::Blend<kSpots> ComplianceField::blendAt(const Around<kSpots>& spots) const noexcept
+{
+  Blend<kSpots> sums = Blend<kSpots>::Zero();
+  const Lanes<kSpots> all = forNear<kSpots>(
+    spots, near(spots.origin),
+    [&](const Place& place, const Rows<3, kSpots>& away, const Lanes<kSpots>& weight)
+      __attribute__((always_inline)) {
+        sums.template bottomRows<3>().matrix() += place.normal * weight.matrix();
+        sums.row(kBend) += weight * place.bend;
+        sums.row(kDoubtful) += weight * place.doubtful;
+        if (place.beside > 0.0F)
+        {
+          sums.row(kPart) += weight;
+          sums.row(kRest) += weight * place.rest;
+          sums.row(kWedge) += weight * place.wedge;
+          sums.row(kBeside) += weight * place.beside *
+            fartherOf<Lanes<kSpots>>(along(place.edge, away) + (1.0F - kNearest));
+        }
+        else
+        {
+          sums.row(kRest) += weight * (place.rest + along(place.gradient, away));
+          sums.row(kSlope) += weight * place.slope;
+        }
+      });
   if (!(all.minCoeff() > 0.0F))
   {
     sums.setZero();
@@ -224,50 +260,70 @@ ComplianceField::Blend<kSpots> ComplianceField::blendAt(
   return sums.rowwise() / all;
 }
 
+// over an edge the normal leans from that of the face, whose foot is elsewhere
+template <int kSpots>
+void ComplianceField::drop(Around<kSpots>& spots) const noexcept
+{
+  const Range range = near(spots.origin);
+  if (!(spots.heights[0] > 0.0F && range.isBeside))
+  {
+    return;
+  }
+  Lanes<kSpots> beside = Lanes<kSpots>::Zero();
+  Rows<3, kSpots> faces = Rows<3, kSpots>::Zero();
+  const Lanes<kSpots> all = forNear<kSpots>(
+    spots, range,
+    [&](const Place& place, const Rows<3, kSpots>&, const Lanes<kSpots>& weight)
+      __attribute__((always_inline)) {
+        beside += place.beside > 0.0F ? weight : Lanes<kSpots>::Zero();
+        faces.matrix() += place.normal * weight.matrix();
+      });
+  if (!(all.minCoeff() > 0.0F))
+  {
+    return;
+  }
+  const Rows<3, kSpots> leaning =
+    (spots.normals - faces.rowwise() / lengthsOf(faces)).rowwise() * (beside / all * spots.heights);
+  // beyond an edge no further than places reach
+  const float most = static_cast<float>(cell_);
+  spots.move(leaning.rowwise() / (1.0F + (lengthsOf(leaning) / most).square()).sqrt());
+}
+
 template <int kSpots>
 std::array<ComplianceField::Local, kSpots> ComplianceField::tellAt(
-  std::array<Spot, kSpots> spots) const noexcept
+  const std::array<Spot, kSpots>& asked) const noexcept
 {
-  Blend<kSpots> blend = blendAt<kSpots>(spots);
-  if (spots[0].height > 0.0 && blend(kPart, 0) > 0.0F)
-  {
-    for (int k = 0; k < kSpots; ++k)
-    {
-      Spot& spot = spots[static_cast<std::size_t>(k)];
-      const Eigen::Vector3f outward = blend.col(k).template tail<3>().matrix().normalized();
-      const Eigen::Vector3d leaning = static_cast<double>(blend(kPart, k)) * spot.height *
-        (spot.normal - outward.template cast<double>());
-      // beyond an edge no further than places reach
-      spot.center += leaning / std::sqrt(1.0 + leaning.squaredNorm() / (cell_ * cell_));
-    }
-    blend = blendAt<kSpots>(spots);
-  }
-  std::array<Local, kSpots> told;
-  for (int k = 0; k < kSpots; ++k)
-  {
-    told[static_cast<std::size_t>(k)] = localOf(blend.col(k));
-  }
-  return told;
+  Around<kSpots> spots(asked);
+  drop(spots);
+  return localsOf<kSpots>(blendAt(spots));
 }
 
 // beside edges, of the wedge that places there tell together: W/D, its slope W/(2 D^2), and 1/D by
 // its part of all slope
-ComplianceField::Local ComplianceField::localOf(const Blend<1>& told) noexcept
+template <int kSpots>
+std::array<ComplianceField::Local, kSpots> ComplianceField::localsOf(
+  const Blend<kSpots>& told) noexcept
 {
-  const auto values = told.cast<double>().eval();
-  Local local{ .body = { values[kRest], values[kSlope], values[kBend], 0.0 },
-    .doubtful = values[kDoubtful] };
-  BodyCompliance& body = local.body;
-  if (values[kPart] > 0.0)
+  using Values = Eigen::Array<double, 1, kSpots>;
+  const auto values = told.template cast<double>().eval();
+  // over an edge, to which faces lean from either side, less than 1
+  const Values oneFace =
+    (2.0 * values.template bottomRows<3>().square().colwise().sum() - 1.0).max(0.0);
+  const Values part = values.row(kPart);
+  const Values nearness = part / (part > 0.0).select(values.row(kBeside), 1.0);
+  const Values wedge = values.row(kWedge) * nearness;
+  const Values lean = 0.5 * wedge * nearness;
+  const Values slope = values.row(kSlope) + lean;
+  std::array<Local, kSpots> locals;
+  for (int k = 0; k < kSpots; ++k)
   {
-    const double nearness = values[kPart] / values[kBeside];
-    const double lean = 0.5 * values[kWedge] * nearness * nearness;
-    body.constant += values[kWedge] * nearness;
-    body.slope += lean;
-    body.edge = lean > 0.0 ? lean / body.slope * nearness : 0.0;
+    locals[static_cast<std::size_t>(k)] = {
+      { values(kRest, k) + wedge[k], slope[k] * oneFace[k], values(kBend, k),
+        lean[k] > 0.0 ? lean[k] / slope[k] * nearness[k] : 0.0 },
+      values(kDoubtful, k)
+    };
   }
-  body.slope *= oneFaceOf(values.tail<3>().matrix());
-  return local;
+  return locals;
 }
 
 ComplianceField::Local ComplianceField::at(

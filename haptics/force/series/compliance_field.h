@@ -143,6 +143,22 @@ private:
   template <int kRows, int kSpots>
   using Rows = Eigen::Array<float, kRows, kSpots, kSpots == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
 
+  template <int kSpots>
+  using Lanes = Rows<1, kSpots>;
+
+  // spots next to each other
+  template <int kSpots>
+  struct Around
+  {
+    explicit Around(const std::array<Spot, kSpots>& spots) noexcept;
+    void move(const Rows<3, kSpots>& way) noexcept;
+
+    Eigen::Vector3d origin;  // the first one's center [m]
+    Rows<3, kSpots> centers; // from there
+    Rows<3, kSpots> normals;
+    Lanes<kSpots> heights;
+  };
+
   // what places tell together
   template <int kSpots>
   using Blend = Rows<kTold, kSpots>;
@@ -151,16 +167,25 @@ private:
   {
     std::uint32_t first = 0;
     std::uint32_t last = 0; // the one behind it
+    bool isBeside = false;  // any of them, an edge
   };
 
   [[nodiscard]] Cell cellOf(const Eigen::Vector3d& place) const noexcept;
+  [[nodiscard]] Range near(const Eigen::Vector3d& place) const noexcept;
+  // visit(place, from it to each spot, its weight there); the sum of all weights
+  template <int kSpots, typename Visit>
+  Lanes<kSpots> forNear(
+    const Around<kSpots>& spots, const Range& range, const Visit& visit) const noexcept;
   template <int kSpots>
-  [[nodiscard]] Blend<kSpots> blendAt(const std::array<Spot, kSpots>& spots) const noexcept;
+  [[nodiscard]] Blend<kSpots> blendAt(const Around<kSpots>& spots) const noexcept;
   template <int kSpots>
-  [[nodiscard]] std::array<Local, kSpots> tellAt(std::array<Spot, kSpots> spots) const noexcept;
+  void drop(Around<kSpots>& spots) const noexcept; // to the face below each
+  template <int kSpots>
+  [[nodiscard]] std::array<Local, kSpots> tellAt(
+    const std::array<Spot, kSpots>& asked) const noexcept;
+  template <int kSpots>
+  [[nodiscard]] static std::array<Local, kSpots> localsOf(const Blend<kSpots>& told) noexcept;
   [[nodiscard]] static float constantOf(const Place& place) noexcept;
-  [[nodiscard]] static float constantOf(const Blend<1>& told) noexcept;
-  [[nodiscard]] static Local localOf(const Blend<1>& told) noexcept;
   void sortIntoCells();
   template <typename Visit>
   void forCellsWithin(const Eigen::Vector3d& position, const Visit& visit); // reach of there

@@ -23,7 +23,7 @@ SeriesBody::Below SeriesBody::at(const SeriesPlace& place) const noexcept
     Eigen::Vector3d step = Eigen::Vector3d::Zero();
     step[std::max<Eigen::Index>(k - 1, 0)] = k > 0 ? kStep : 0.0;
     const double height = place.height + place.rising.dot(step);
-    const Eigen::Vector3d normal = (place.normal + place.turning * step).normalized();
+    const Eigen::Vector3d normal = place.normal + place.turning * step; // which is square to it
     spots[static_cast<std::size_t>(k)] = { place.tool + step - height * normal, normal, height };
   }
   const std::array<ComplianceField::Local, 4> told = field->atFour(spots);

@@ -184,36 +184,39 @@ double SeriesLaw::aside(const BodyCompliance& body, double force) const noexcept
 
 double SeriesLaw::energy(const BodyCompliance& body, double force) const noexcept
 {
-  return modulus_ * energyOf(atForce(force), body);
+  const Moved moved = movedBy(force, body);
+  return modulus_ * (energyOf(moved, body) + moved.force * moved.force * moved.less);
 }
 
+// x is where the gain is most, so that its own change does not count
 Eigen::Vector3d SeriesLaw::lateral(const BodyCompliance& here,
   const std::array<BodyCompliance, 3>& aside, double step, double force) const noexcept
 {
-  const Loaded loaded = atForce(force);
-  const double energy = energyOf(loaded, here);
+  const Moved moved = movedBy(force, here);
+  const double energy = energyOf(moved, here);
   const auto slope = [&](const BodyCompliance& body)
-  { return modulus_ * (energyOf(loaded, body) - energy) / step; };
+  { return modulus_ * (energyOf(moved, body) - energy) / step; };
   return { slope(aside[0]), slope(aside[1]), slope(aside[2]) };
 }
 
-SeriesLaw::Loaded SeriesLaw::atForce(double force) const noexcept
+SeriesLaw::Moved SeriesLaw::movedBy(double force, const BodyCompliance& body) const noexcept
 {
   const double f = force / modulus_;
-  return { f, radiusOf(f), widened(f) };
+  Moved moved{ f, widened(f), 0.0, 0.0 };
+  if (body.slope > 0.0 && f > 0.0)
+  {
+    const Gain gain = gainOf(f, radiusOf(f), body);
+    moved.aside = gain.aside;
+    moved.less = gain.less;
+  }
+  return moved;
 }
 
-// over E*
-double SeriesLaw::energyOf(const Loaded& loaded, const BodyCompliance& body) const noexcept
+double SeriesLaw::energyOf(const Moved& moved, const BodyCompliance& body) noexcept
 {
-  const auto& [f, width, widened] = loaded;
-  const double even = 0.5 * f * f * body.constant + kWidened * widened * body.bend;
-  if (!(body.slope > 0.0 && f > 0.0))
-  {
-    return even;
-  }
-  const Gain gain = gainOf(f, width, body);
-  return even - f * f * (gain.nearer - gain.less);
+  const auto& [f, widened, x, less] = moved;
+  return f * f * (0.5 * body.constant - body.slope * x / (1.0 + body.edge * x)) +
+    kWidened * widened * body.bend;
 }
 
 } // namespace palp

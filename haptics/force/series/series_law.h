@@ -147,12 +147,13 @@ private:
     double slope; // da/df
   };
 
-  // a force over E*, with its contact and int a^2 f df
-  struct Loaded
+  // a force over E* whose pressure has moved
+  struct Moved
   {
     double force;
-    Radius width;
-    double widened;
+    double widened; // int a^2 f df
+    double aside;   // x [m]
+    double less;    // x^2 / (2 q) [1/m]
   };
 
   // of what the pressure gains by moving aside: the complementary energy is f^2 times the height
@@ -169,8 +170,9 @@ private:
 
   [[nodiscard]] Radius radiusOf(double force) const noexcept;
   [[nodiscard]] double widened(double force) const noexcept; // int a^2 f df
-  [[nodiscard]] Loaded atForce(double force) const noexcept;
-  [[nodiscard]] double energyOf(const Loaded& loaded, const BodyCompliance& body) const noexcept;
+  [[nodiscard]] Moved movedBy(double force, const BodyCompliance& body) const noexcept;
+  // over E*, without what moving costs the contact
+  [[nodiscard]] static double energyOf(const Moved& moved, const BodyCompliance& body) noexcept;
   [[nodiscard]] Gain gainOf(
     double force, const Radius& width, const BodyCompliance& body) const noexcept;
   [[nodiscard]] Yield yieldOf(double force, const BodyCompliance& body) const noexcept;

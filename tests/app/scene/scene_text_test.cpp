@@ -81,7 +81,7 @@ protected:
     tissue.young = between(1e3, 1e6);
     tissue.poisson = between(0.0, 0.5);
     tissue.options.mode = LawMode::Corrected;
-    tissue.options.base = static_cast<Base>(below(2));
+    tissue.options.base = static_cast<Base>(below(3));
     tissue.options.constitution = ConstitutiveModel::Linear;
     if (i_++ % 2 == 0) // nodules are known neither below coatings nor over time
     {

@@ -184,7 +184,8 @@ TEST(OrganCommand, ARunRefusesAFileThatIsNotOfWhatItPresses)
   for (const auto& [pressed, why] :
     { std::pair(std::string("block_30.vtp --at 0,0,0"), "another surface"),
       std::pair(block + "--stiffness formula:5", "of one modulus"),
-      std::pair(block + "--base slip", "leave out --base and --coating") })
+      std::pair(block + "--base slip", "leave out --base and --coating"),
+      std::pair(block + "--base bonded", "leave out --base and --coating") })
   {
     const std::string told = refusal(pressed);
     EXPECT_NE(told.find(why), std::string::npos) << told;
