@@ -66,7 +66,7 @@ void LawOptions::addUncoatedTo(CLI::App& command)
     "paper: Eqs. (2)-(5); exact: linear half-space; corrected: every factor that acts", kLawModes,
     mode);
   addChoice(command, "--base",
-    "What the body lies on, for --law corrected: bonded, slip, or unknown, which is answered as "
+    "What the body lies on, for --law corrected: bonded, slip, or unset, which is answered as "
     "bonded and flagged where a free part of the body would bend",
     kBases, base);
   addChoice(command, "--material", "Under large strain, for --law corrected: linear or neo-hookean",
@@ -163,7 +163,8 @@ std::string describeLaw(const LawSettings& settings)
   {
     return settings.mode == LawMode::Paper ? "paper" : "exact";
   }
-  return "corrected, " + kBases.at(static_cast<std::size_t>(settings.base)) + " base, " + (settings.constitution == ConstitutiveModel::Linear ? "linear" : "neo-hookean") +
+  return "corrected, base " + kBases.at(static_cast<std::size_t>(settings.base)) + ", " +
+    (settings.constitution == ConstitutiveModel::Linear ? "linear" : "neo-hookean") +
     (settings.coatings.empty() ? "" : ", coated by " + describeCoatings(settings.coatings)) +
     (settings.relaxation.empty() ? ""
                                  : ", relaxing by " + describeRelaxation(settings.relaxation)) +

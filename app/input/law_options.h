@@ -21,7 +21,7 @@ namespace palp
 struct LawOptions
 {
   LawMode mode = LawMode::Paper;
-  Base base = Base::Unknown;
+  Base base = Base::Unset;
   ConstitutiveModel constitution = ConstitutiveModel::NeoHookean;
   Coatings coatings{};
   PronySeries relaxation{};
@@ -54,7 +54,7 @@ struct LawOptions
 /// @throws Error  BadValue: not 0 to 5
 [[nodiscard]] double parseFriction(std::string_view text, std::string_view what = "--friction");
 
-/// A law in words, as in `corrected, bonded base, neo-hookean`.
+/// A law in words, as in `corrected, base bonded, neo-hookean`.
 [[nodiscard]] std::string describeLaw(const LawSettings& settings);
 
 /// The place that is pressed, where no surface tells it.

@@ -8,7 +8,7 @@ namespace palp
 {
 
 const Words kLawModes{ "paper", "exact", "corrected" };
-const Words kBases{ "unknown", "bonded", "slip" };
+const Words kBases{ "unset", "bonded", "slip" };
 const Words kMaterials{ "linear", "neo-hookean" };
 const Words kContactRules{ "exact", "paper" };
 const Words kDentSurfaces{ "paper", "paper-literal", "fitted" };

@@ -30,7 +30,7 @@ LawPanel::LawPanel(const LawSettings& inUse, bool rated, QWidget* parent)
   : QGroupBox(tr("Law"), parent)
   , rated_(rated)
   , mode_(new ChoiceBox("law", { tr("Paper"), tr("Exact half-space"), tr("Corrected") }))
-  , base_(new ChoiceBox("base", { tr("Unknown"), tr("Bonded"), tr("Slip") }))
+  , base_(new ChoiceBox("base", { tr("Unset"), tr("Bonded"), tr("Slip") }))
   , constitution_(new ChoiceBox("material", { tr("Linear"), tr("Neo-Hookean") }))
   , coatings_(new QLineEdit)
 {
@@ -38,8 +38,9 @@ LawPanel::LawPanel(const LawSettings& inUse, bool rated, QWidget* parent)
                        "Corrected: thickness, curvature, tilt and large strain, where they act"));
   base_->setAccessibleName(tr("Base"));
   constitution_->setAccessibleName(tr("Material"));
-  base_->setToolTip(tr("What the body lies on; acts where it is thin. Unknown is answered as bonded, and flagged "
-                        "where a free part of the body would bend"));
+  base_->setToolTip(
+    tr("What the body lies on; acts where it is thin. Unset is answered as bonded, and flagged "
+       "where a free part of the body would bend"));
   constitution_->setToolTip(tr("Acts under large strain of spheres and cones"));
   coatings_->setObjectName("coatings");
   coatings_->setPlaceholderText(tr("e.g. 2mm:200kPa:0.45"));

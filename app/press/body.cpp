@@ -316,7 +316,7 @@ void feelTissue(Scene& scene, const SceneBody& body)
   law.checkBody(boxAbout(body.haptic->points()).sizes().minCoeff());
   scene.nodules = nullptr;
   scene.stiffness = nullptr;
-  if (body.compliance != nullptr && (!own.coatings.empty() || own.base != Base::Unknown))
+  if (body.compliance != nullptr && (!own.coatings.empty() || own.base != Base::Unset))
   {
     throw Error(ErrorCode::BadValue,
       "organ: an organ file has its own base and no coating; leave out --base and --coating");

@@ -24,7 +24,7 @@ Rule lobeRule(const Surface& surface, const Contact& contact, Base base) noexcep
   }
   const double wide = std::sqrt(0.5 * squares);
   return { "lobe", "-",
-    contact.touching() && base == Base::Unknown
+    contact.touching() && base == Base::Unset
       ? std::max(least / kLobe, wide / kPlate) / contact.thickness
       : 0.0,
     1.0,

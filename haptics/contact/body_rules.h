@@ -16,8 +16,7 @@ namespace palp
 ///
 /// @source    Timoshenko, Strength of Materials I, 1955, Sec. 39 (cantilever, with shear)
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] Rule lobeRule(
-  const Surface& surface, const Contact& contact, Base base) noexcept;
+[[nodiscard]] Rule lobeRule(const Surface& surface, const Contact& contact, Base base) noexcept;
 
 /// Whether nothing is known of what lies behind the surface, which is open: the law then takes the
 /// body as without end. A bonded base 2, 6 and 10 contact radii below makes it 1.8, 1.2 and 1.1

@@ -56,7 +56,7 @@ enum class ConstitutiveModel
 struct LawSettings
 {
   LawMode mode = LawMode::Paper;
-  Base base = Base::Unknown;
+  Base base = Base::Unset;
   ConstitutiveModel constitution = ConstitutiveModel::NeoHookean;
   LargeStrainTable largeStrain{}; ///< null: the ratio is 1; of a body without coatings
   Coatings coatings{};            ///< on the body, whose thickness counts theirs

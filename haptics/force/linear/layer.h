@@ -10,9 +10,9 @@ namespace palp
 /// How the body is held below.
 enum class Base
 {
-  Unknown, ///< nobody says; answered as bonded, and flagged where a free part would bend
-  Bonded,  ///< glued to something rigid
-  Slip,    ///< on something rigid, without friction
+  Unset,  ///< nobody says; answered as bonded, and flagged where a free part would bend
+  Bonded, ///< glued to something rigid
+  Slip,   ///< on something rigid, without friction
 };
 
 /// Linear elastic layer of one material on a rigid base.

@@ -132,7 +132,7 @@ TEST_F(TissuePanelTest, TheCorrectedLawTakesItsTableOnlyForNeoHookeanTissue)
   list("law").setCurrentIndex(2);
   LawSettings settings = panel_->law().settings();
   EXPECT_EQ(settings.constitution, ConstitutiveModel::NeoHookean);
-  EXPECT_EQ(settings.base, Base::Unknown);
+  EXPECT_EQ(settings.base, Base::Unset);
   EXPECT_NE(settings.largeStrain, nullptr);
 
   list("material").setCurrentText("Linear");

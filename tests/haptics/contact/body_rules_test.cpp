@@ -38,7 +38,7 @@ TEST(LobeRule, SeesPlatesInAnyAttitudeUnlessTheyLieOnSomething)
     Eigen::AngleAxisd(0.7, Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
   for (const Eigen::Matrix3d& frame : { Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turned })
   {
-    const auto holds = [&](double side, double thickness, Base base = Base::Unknown)
+    const auto holds = [&](double side, double thickness, Base base = Base::Unset)
     {
       test::Mesh mesh = test::block({ side, side, thickness }, 20);
       for (Vector3d& point : mesh.first)
@@ -61,7 +61,7 @@ TEST(LobeRule, SeesPlatesInAnyAttitudeUnlessTheyLieOnSomething)
   }
   const Surface ball = test::makeSurface(test::ball(40.0_mm, 20));
   const Contact contact = pressed(ball, { 0.0, 0.0, 40.0_mm }, 1.0_mm, -Vector3d::UnitZ());
-  EXPECT_TRUE(lobeRule(ball, contact, Base::Unknown).holds());
+  EXPECT_TRUE(lobeRule(ball, contact, Base::Unset).holds());
 }
 
 // the same block with faces that are flat, and a little round by triangles of 4 mm
