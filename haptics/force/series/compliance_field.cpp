@@ -285,7 +285,7 @@ void ComplianceField::drop(Around<kSpots>& spots) const noexcept
   const Rows<3, kSpots> leaning =
     (spots.normals - faces.rowwise() / lengthsOf(faces)).rowwise() * (beside / all * spots.heights);
   // beyond an edge no further than places reach
-  const float most = static_cast<float>(cell_);
+  const auto most = static_cast<float>(cell_);
   spots.move(leaning.rowwise() / (1.0F + (lengthsOf(leaning) / most).square()).sqrt());
 }
 
