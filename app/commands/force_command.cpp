@@ -226,14 +226,7 @@ std::shared_ptr<const StiffnessField> stiffnessBelow(
       "one out");
   }
   checkMap({ .stiffness = source }, options.tissue.options);
-  try
-  {
-    return stiffnessUnder(law, options.geometry.geometry, deepest, TissueFormula(source.text));
-  }
-  catch (const Error& error)
-  {
-    throw Error(error.code(), std::string("--stiffness: ") + error.what());
-  }
+  return stiffnessUnder(law, options.geometry.geometry, deepest, TissueFormula(source.text));
 }
 
 // what is pressed, as deep as it will be

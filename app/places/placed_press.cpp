@@ -153,10 +153,11 @@ public:
   // where a contact gets as deep as asked; nothing: the tool cannot get that deep
   [[nodiscard]] std::optional<double> travelTo(double depth, double from) const
   {
+    const double step = 0.02 * depth; // past a thin part's middle the depth falls again
     double high = depth;
     while (!(depthAt(high, organ_) >= depth))
     {
-      high += 0.25 * depth;
+      high += step;
       if (high > 2.0 * depth + kAbove)
       {
         return std::nullopt;

@@ -63,7 +63,13 @@ std::vector<LabelModulus> labelsOf(std::string_view text, std::string_view what)
     {
       refuseForm(text, what);
     }
-    labels.push_back({ std::string(one.substr(0, equals)), youngOf(one.substr(equals + 1), what) });
+    const std::string label(one.substr(0, equals));
+    if (std::ranges::find(labels, label, &LabelModulus::label) != labels.end())
+    {
+      throw Error(ErrorCode::BadValue,
+        std::string(what) + ": the label " + inQuotes(label) + " is given twice; give it once");
+    }
+    labels.push_back({ label, youngOf(one.substr(equals + 1), what) });
   }
   return labels;
 }

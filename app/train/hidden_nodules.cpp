@@ -13,7 +13,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
+#include <map>
+#include <random>
+#include <string>
 
 namespace palp
 {
@@ -23,6 +25,7 @@ namespace
 using namespace units::literals;
 
 constexpr int kMostTrials = 3000; // for each nodule
+constexpr int kMostStarts = 20;
 constexpr double kEdge = 15.0_mm; // from sharp and open edges
 constexpr double kBase = 5.0_mm;  // below a nodule to the far side
 constexpr double kSlack = 0.2_mm; // that a curved surface may bring it nearer
@@ -38,9 +41,14 @@ public:
   {
   }
 
-  // a nodule of the level there, if one may be
-  [[nodiscard]] std::optional<PlacedNodule> at(
-    const SurfacePoint& above, std::mt19937_64& engine) const
+  struct Found
+  {
+    PlacedNodule nodule;
+    std::string obstacle; // why it may not be; empty: it may
+  };
+
+  // a nodule of the level there
+  [[nodiscard]] Found at(const SurfacePoint& above, std::mt19937_64& engine) const
   {
     const auto within = [&](const TrainingLevel::Span& span)
     { return span.low + (span.high - span.low) * uniform(engine); };
@@ -52,32 +60,130 @@ public:
       .ratio = nodule.ratio };
     const double depth =
       -findClosestPoint(surface_, placed.center, std::numeric_limits<double>::infinity()).distance;
-    const bool isWell = std::abs(depth - nodule.depth()) <= kSlack && isPressable(above, nodule);
-    return isWell ? std::optional(placed) : std::nullopt;
+    return { placed,
+      std::abs(depth - nodule.depth()) > kSlack ? "the body is too thin or bent"
+                                                : obstacleAt(above, nodule) };
   }
 
 private:
-  // whether the level's press right above it is one that the law knows, and feels it
-  [[nodiscard]] bool isPressable(const SurfacePoint& above, const Nodule& nodule) const
+  // what keeps the level's press right above it from being one that the law knows, and feels it
+  [[nodiscard]] std::string obstacleAt(const SurfacePoint& above, const Nodule& nodule) const
   {
     const ToolPose pose{ .apex = above.position - level_.depth * above.normal,
       .axis = -above.normal };
     const Contact contact = findContact(surface_, law_.tip(), pose, ContactRule::Exact);
     const ContactGeometry place = contactGeometryOf(contact);
-    if (!contact.touching() || contact.edgeDistance < kEdge ||
-      place.thickness < nodule.top + 2.0 * nodule.radius + kBase ||
-      brokenRules(validity_(place, contact.edgeDistance)) != 0)
+    if (!contact.touching() || contact.edgeDistance < kEdge)
     {
-      return false;
+      return "an edge is nearer than " + units::inMillimeters(kEdge);
+    }
+    if (place.thickness < nodule.top + 2.0 * nodule.radius + kBase)
+    {
+      return "the body is too thin";
+    }
+    const Rules rules = validity_(place, contact.edgeDistance);
+    // how a body is held changes its force everywhere alike, and no contrast
+    const auto broken = std::ranges::find_if(
+      rules, [](const Rule& rule) { return !rule.holds() && rule.name != std::string("support"); });
+    if (broken != rules.end())
+    {
+      return "a press of " + units::inMillimeters(level_.depth) +
+        " is beyond the limits of the law (" + broken->name + ": " + broken->why + ")";
     }
     const NoduleContrast contrast(law_, place);
-    return contrast(nodule) >= level_.contrast && contrast.rules(nodule)[0].holds();
+    if (!contrast.rules(nodule)[0].holds())
+    {
+      return "the tool is too wide for nodules so near to it";
+    }
+    return contrast(nodule) >= level_.contrast ? "" : "the tool would feel too little of it";
   }
 
   const Surface& surface_;
   const ForceLaw& law_;
   const TrainingLevel& level_;
   Validity validity_;
+};
+
+// Nodules of one plan. Those that come first may leave no room for the last: it begins anew then.
+class Hiding
+{
+public:
+  Hiding(const Surface& surface, const ForceLaw& law, const Curriculum& curriculum,
+    const TrainingPlan& plan)
+    : level_(curriculum.level(plan.level))
+    , apart_(2.0 * (curriculum.hitWithin + level_.radius.high))
+    , count_(static_cast<std::size_t>(plan.nodules > 0 ? plan.nodules : level_.nodules))
+    , place_(surface, law, level_)
+    , darts_(dartsFacing(surface, plan.side))
+  {
+    // another level, other places: those of one are shown at its end
+    std::seed_seq seeds{ plan.seed,
+      static_cast<std::uint32_t>(&level_ - curriculum.levels.data()) };
+    engine_.seed(seeds);
+  }
+
+  [[nodiscard]] std::vector<PlacedNodule> all()
+  {
+    std::vector<PlacedNodule> hidden;
+    std::size_t most = 0;
+    for (int i = 0; i < kMostStarts; ++i)
+    {
+      hidden = once();
+      most = std::max(most, hidden.size());
+      if (hidden.size() == count_ || hidden.empty())
+      {
+        break;
+      }
+    }
+    hidden.size() < count_ ? refuse(most) : void();
+    return hidden;
+  }
+
+private:
+  std::vector<PlacedNodule> once()
+  {
+    std::vector<PlacedNodule> hidden;
+    std::vector<Eigen::Vector3d> above;
+    for (std::size_t i = 0; i < count_ * kMostTrials && hidden.size() < count_; ++i)
+    {
+      const SurfacePoint place = darts_.next(engine_);
+      const auto isNear = [&](const Eigen::Vector3d& other)
+      { return (other - place.position).norm() < apart_; };
+      if (std::ranges::any_of(above, isNear))
+      {
+        ++obstacles_["another nodule is nearer than " + units::inMillimeters(apart_)];
+        continue;
+      }
+      auto [nodule, obstacle] = place_.at(place, engine_);
+      if (!obstacle.empty())
+      {
+        ++obstacles_[obstacle];
+        continue;
+      }
+      hidden.push_back(nodule);
+      above.push_back(place.position);
+    }
+    return hidden;
+  }
+
+  [[noreturn]] void refuse(std::size_t most) const
+  {
+    const auto worst = std::ranges::max_element(
+      obstacles_, {}, [](const auto& obstacle) { return obstacle.second; });
+    throw Error(ErrorCode::BadValue,
+      "training: only " + std::to_string(most) + " of " + counted(count_, "nodule") +
+        " of the level '" + level_.name +
+        "' find room below the side that is searched, as at most places " + worst->first +
+        "; give fewer, another seed, level, tool or body");
+  }
+
+  const TrainingLevel& level_;
+  double apart_; // what lies above two of them, so that no mark finds both [m]
+  std::size_t count_;
+  HidingPlace place_;
+  AreaDarts darts_;
+  std::mt19937_64 engine_;
+  std::map<std::string, int> obstacles_; // met so far
 };
 
 } // namespace
@@ -90,38 +196,7 @@ std::vector<PlacedNodule> hideNodules(const Surface& surface, const ForceLaw& la
     throw Error(
       ErrorCode::BadValue, "training: nodules take the law 'corrected' and no coating; give these");
   }
-  const TrainingLevel& level = curriculum.level(plan.level);
-  const AreaDarts darts = dartsFacing(surface, plan.side);
-  const HidingPlace hiding(surface, law, level);
-  const auto count = static_cast<std::size_t>(plan.nodules > 0 ? plan.nodules : level.nodules);
-  // another level, other places: those of one are shown at its end
-  std::seed_seq seeds{ plan.seed, static_cast<std::uint32_t>(&level - curriculum.levels.data()) };
-  std::mt19937_64 engine(seeds);
-  std::vector<PlacedNodule> hidden;
-  std::vector<Eigen::Vector3d> above;
-  for (std::size_t i = 0; i < count * kMostTrials && hidden.size() < count; ++i)
-  {
-    const SurfacePoint place = darts.next(engine);
-    const auto isNear = [&](const Eigen::Vector3d& other)
-    { return (other - place.position).norm() < 2.0 * (curriculum.hitWithin + level.radius.high); };
-    if (std::ranges::any_of(above, isNear))
-    {
-      continue;
-    }
-    if (const auto nodule = hiding.at(place, engine))
-    {
-      hidden.push_back(*nodule);
-      above.push_back(place.position);
-    }
-  }
-  if (hidden.size() < count)
-  {
-    throw Error(ErrorCode::BadValue,
-      "training: only " + std::to_string(hidden.size()) + " of " + counted(count, "nodule") +
-        " of the level '" + level.name +
-        "' find room below the side that is searched; give fewer, another level or another body");
-  }
-  return hidden;
+  return Hiding(surface, law, curriculum, plan).all();
 }
 
 } // namespace palp

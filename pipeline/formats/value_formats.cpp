@@ -19,15 +19,25 @@ namespace palp
 namespace
 {
 
-void checkNumbers(const FileValues& file, const std::filesystem::path& name, const char* what)
+// as programs that show images count: each axis from 0
+std::string placeOf(std::size_t index, const FileValues& file)
+{
+  const auto nx = static_cast<std::size_t>(file.voxels[0]);
+  const auto ny = static_cast<std::size_t>(file.voxels[1]);
+  return nx == 0 ? "value " + std::to_string(index)
+                 : "voxel " + std::to_string(index % nx) + "," + std::to_string(index / nx % ny) +
+      "," + std::to_string(index / nx / ny);
+}
+
+void checkNumbers(const FileValues& file, const std::filesystem::path& name)
 {
   const auto odd =
     std::ranges::find_if_not(file.values, [](float value) { return std::isfinite(value); });
   if (odd != file.values.end())
   {
     refuse(name,
-      std::string(what) + " " + std::to_string(odd - file.values.begin() + 1) +
-        " of it is no number; write 0 where nothing is known");
+      placeOf(static_cast<std::size_t>(odd - file.values.begin()), file) +
+        " of it, counted from 0, is no number; write 0 where nothing is known");
   }
 }
 
@@ -83,7 +93,7 @@ FileValues imageValues(const PatientImage& volume, const std::filesystem::path& 
     found.names.push_back({ volume.slope * segment.value + volume.intercept, segment.name });
   }
   found.unit = volume.unit;
-  checkNumbers(found, file, "voxel");
+  checkNumbers(found, file);
   return found;
 }
 
@@ -121,7 +131,7 @@ FileValues arrayValues(
   auto* unit = vtkStringArray::SafeDownCast(surface.GetFieldData()->GetAbstractArray(kUnitArray));
   found.unit =
     unit != nullptr && unit->GetNumberOfValues() == 1 ? unit->GetValue(0) : std::string();
-  checkNumbers(found, file, "value");
+  checkNumbers(found, file);
   return found;
 }
 

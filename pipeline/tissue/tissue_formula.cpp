@@ -3,6 +3,8 @@
 #include "haptics/error.h"
 #include "haptics/units.h"
 
+#include <cmath>
+#include <limits>
 #include <sstream>
 #include <vtkFunctionParser.h>
 #include <vtkObject.h>
@@ -23,12 +25,18 @@ TissueFormula::TissueFormula(const std::string& text)
   : text_(text)
   , parser_(vtkFunctionParser::New(), [](vtkFunctionParser* parser) { parser->Delete(); })
 {
+  if (text.find("log(") != std::string::npos) // of which VTK prints that it will go
+  {
+    throw Error(ErrorCode::BadValue,
+      "stiffness: '" + text + "': log is the natural or the decimal logarithm; write ln or log10");
+  }
   for (const char* name : { "x", "y", "z", "r" })
   {
     parser_->SetScalarVariableValue(name, 1.0);
   }
-  parser_->ReplaceInvalidValuesOn(); // else VTK prints what it finds
-  parser_->SetReplacementValue(0.0);
+  parser_->ReplaceInvalidValuesOn(); // else VTK prints what it finds, in terms that are no number
+  // beyond what any term can mend, so that the value is refused and not a term of it made up
+  parser_->SetReplacementValue(std::numeric_limits<double>::quiet_NaN());
   parser_->SetFunction(text.c_str());
   int place = -1;
   char* what = nullptr;
@@ -36,7 +44,7 @@ TissueFormula::TissueFormula(const std::string& text)
   if (text.empty() || what != nullptr)
   {
     throw Error(ErrorCode::BadValue,
-      "'" + text + "' is no formula" +
+      "stiffness: '" + text + "' is no formula" +
         (what != nullptr
             ? " (" + std::string(what) + " at character " + std::to_string(place + 1) + ")"
             : "") +
@@ -55,10 +63,11 @@ double TissueFormula::operator()(const Eigen::Vector3d& position) const
   if (!(value >= kSoftest && value <= kStiffest))
   {
     std::ostringstream what;
-    value > 0.0 ? what << "' gives " << units::toKilopascals(value) << " kPa"
-                : what << "' is not above 0 kPa";
+    std::isnan(value) ? what << "' is no number"
+      : value > 0.0   ? what << "' gives " << units::toKilopascals(value) << " kPa"
+                      : what << "' is not above 0 kPa";
     throw Error(ErrorCode::BadValue,
-      "'" + text_ + what.str() + " at " + units::inMillimeters(position.x()) + ", " +
+      "stiffness: '" + text_ + what.str() + " at " + units::inMillimeters(position.x()) + ", " +
         units::inMillimeters(position.y()) + ", " + units::inMillimeters(position.z()) +
         "; mend the formula, so that it gives 1 Pa to 10 GPa; its numbers are kPa");
   }
