@@ -4,12 +4,14 @@
 #include "app/input/law_options.h"
 #include "app/panels/panel_boxes.h"
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 
+#include <algorithm>
 #include <utility>
 
 namespace palp
@@ -24,6 +26,22 @@ Enum shownIn(const ChoiceBox& box)
   return static_cast<Enum>(box.currentIndex());
 }
 
+// both are short, and the panel is high
+QWidget* sideBySide(QWidget* first, QWidget* second)
+{
+  auto* pair = new QWidget;
+  auto* row = new QHBoxLayout(pair);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(first);
+  row->addWidget(second, 1);
+  return pair;
+}
+
+double frictionIn(const std::string& text)
+{
+  return text.empty() ? 0.0 : parseFriction(text, LawPanel::tr("Friction").toStdString());
+}
+
 } // namespace
 
 LawPanel::LawPanel(const LawSettings& inUse, bool rated, QWidget* parent)
@@ -32,7 +50,18 @@ LawPanel::LawPanel(const LawSettings& inUse, bool rated, QWidget* parent)
   , mode_(new ChoiceBox("law", { tr("Paper"), tr("Exact half-space"), tr("Corrected") }))
   , base_(new ChoiceBox("base", { tr("Unset"), tr("Bonded"), tr("Slip") }))
   , constitution_(new ChoiceBox("material", { tr("Linear"), tr("Neo-Hookean") }))
-  , coatings_(new QLineEdit)
+  , texts_{ { { new QLineEdit,
+                [](const LawSettings& law) { return describeCoatings(law.coatings); },
+                [](const std::string& text)
+                { (void)parseCoatings(text, tr("Coatings").toStdString()); } },
+      { new QLineEdit, [](const LawSettings& law) { return describeRelaxation(law.relaxation); },
+        [](const std::string& text)
+        { (void)parseRelaxation(text, tr("Relaxation").toStdString()); } },
+      { new QLineEdit,
+        [](const LawSettings& law)
+        { return law.friction == 0.0 ? std::string() : shortest(law.friction); },
+        [](const std::string& text) { (void)frictionIn(text); } } } }
+  , inside_(new QLabel)
 {
   mode_->setToolTip(tr("Paper: Eqs. (2)-(5)\nExact half-space: the linear solution for every tool\n"
                        "Corrected: thickness, curvature, tilt and large strain, where they act"));
@@ -42,16 +71,14 @@ LawPanel::LawPanel(const LawSettings& inUse, bool rated, QWidget* parent)
     tr("What the body lies on; acts where it is thin. Unset is answered as bonded, and flagged "
        "where a free part of the body would bend"));
   constitution_->setToolTip(tr("Acts under large strain of spheres and cones"));
-  coatings_->setObjectName("coatings");
-  coatings_->setPlaceholderText(tr("e.g. 2mm:200kPa:0.45"));
-  coatings_->setToolTip(
-    tr("Skin, fat, a capsule from the surface down: thickness, Young's modulus "
-       "and Poisson's ratio of each, with commas between; for the corrected law"));
   QGridLayout& rows = *makeRows(*this);
   addRow(rows, tr("Force law"), mode_);
-  addRow(rows, tr("Base, material"), makePair());
-  addRow(rows, tr("Coatings"), coatings_);
-  reason_ = addReason(rows, *coatings_);
+  addRow(rows, tr("Base, material"), sideBySide(base_, constitution_));
+  addTexts(rows);
+  inside_->setObjectName("inside");
+  inside_->setWordWrap(true);
+  inside_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // the panel keeps its width
+  addRow(rows, tr("In the body"), inside_);
   setSettings(inUse);
 
   for (ChoiceBox* box : { mode_, base_, constitution_ })
@@ -63,28 +90,59 @@ LawPanel::LawPanel(const LawSettings& inUse, bool rated, QWidget* parent)
         Q_EMIT lawChanged();
       });
   }
-  connect(coatings_, &QLineEdit::editingFinished, this, &LawPanel::takeCoatings);
+  for (Text& text : texts_)
+  {
+    connect(text.field, &QLineEdit::editingFinished, this, [this, &text] { take(text); });
+  }
+}
+
+void LawPanel::addTexts(QGridLayout& rows)
+{
+  auto& [coatings, relaxation, friction] = texts_;
+  coatings.field->setObjectName("coatings");
+  coatings.field->setPlaceholderText(tr("e.g. 2mm:200kPa:0.45"));
+  coatings.field->setToolTip(
+    tr("Skin, fat, a capsule from the surface down: thickness, Young's modulus "
+       "and Poisson's ratio of each, with commas between; for the corrected law"));
+  relaxation.field->setObjectName("relaxation");
+  relaxation.field->setAccessibleName(tr("Relaxation"));
+  relaxation.field->setPlaceholderText(tr("e.g. 0.3:50ms"));
+  relaxation.field->setToolTip(
+    tr("Parts of the modulus that decay, and their times, with commas between, as in "
+       "0.3:50ms,0.2:1s; E is the modulus of the first moment; for the corrected law"));
+  friction.field->setObjectName("friction");
+  friction.field->setAccessibleName(tr("Friction"));
+  friction.field->setPlaceholderText(tr("\u03bc"));
+  friction.field->setToolTip(
+    tr("Coefficient of friction \u03bc between tool and tissue, 0 to 5; no "
+       "value of a liver is known; for the corrected law"));
+  addRow(rows, tr("Coatings"), coatings.field);
+  coatings.reason = addReason(rows, *coatings.field);
+  addRow(rows, tr("Relaxation, friction"), sideBySide(friction.field, relaxation.field));
+  relaxation.reason = addReason(rows, *relaxation.field);
+  friction.reason = addReason(rows, *friction.field);
 }
 
 // also comes when the field is left as it was
-void LawPanel::takeCoatings()
+void LawPanel::take(Text& text)
 {
-  if (coatings_->isModified())
+  if (text.field->isModified())
   {
-    coatings_->setModified(false);
-    const std::string before = std::exchange(coating_, coatings_->text().remove(' ').toStdString());
+    text.field->setModified(false);
+    const std::string before =
+      std::exchange(text.taken, text.field->text().remove(' ').toStdString());
     try
     {
-      (void)parseCoatings(coating_, tr("Coatings").toStdString());
+      text.check(text.taken);
       check_();
     }
     catch (const Error& error)
     {
-      coating_ = before;
-      showReason(*reason_, *coatings_, QString::fromStdString(error.what()));
+      text.taken = before;
+      showReason(*text.reason, *text.field, QString::fromStdString(error.what()));
       return;
     }
-    showReason(*reason_, *coatings_, {});
+    showReason(*text.reason, *text.field, {});
     showWhatActs();
     Q_EMIT lawChanged();
   }
@@ -95,29 +153,26 @@ void LawPanel::setCheck(std::function<void()> check)
   check_ = std::move(check);
 }
 
-// both are short, and the panel is high
-QWidget* LawPanel::makePair()
+const std::string& LawPanel::textIn(const Text& text) const
 {
-  auto* pair = new QWidget;
-  auto* row = new QHBoxLayout(pair);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->addWidget(base_);
-  row->addWidget(constitution_, 1);
-  return pair;
+  static const std::string none;
+  return isCorrected() ? text.taken : none;
 }
 
 LawSettings LawPanel::settings() const
 {
-  const std::string coating = isCorrected() ? coating_ : "";
-  LawOptions options{ .mode = shownIn<LawMode>(*mode_),
+  const auto& [coatings, relaxation, friction] = texts_;
+  const LawOptions options{ .mode = shownIn<LawMode>(*mode_),
     .base = shownIn<Base>(*base_),
     .constitution = shownIn<ConstitutiveModel>(*constitution_),
-    .coatings = parseCoatings(coating),
-    .relaxation = isCorrected() ? inUse_.relaxation : PronySeries{},
-    .friction = isCorrected() ? inUse_.friction : 0.0,
+    .coatings = parseCoatings(textIn(coatings)),
+    .relaxation = parseRelaxation(textIn(relaxation)),
+    .friction = frictionIn(textIn(friction)),
     .rated = rated_ };
-  const bool same = options.mode == inUse_.mode && coating == describeCoatings(inUse_.coatings) &&
-    options.base == inUse_.base && options.constitution == inUse_.constitution;
+  const bool same = options.mode == inUse_.mode && options.base == inUse_.base &&
+    options.constitution == inUse_.constitution &&
+    std::ranges::all_of(
+      texts_, [this](const Text& text) { return textIn(text) == text.inUse(inUse_); });
   if (same)
   {
     return inUse_; // reads no table again
@@ -131,15 +186,24 @@ void LawPanel::setSettings(const LawSettings& inUse)
   mode_->show(static_cast<int>(inUse.mode));
   base_->show(static_cast<int>(inUse.base));
   constitution_->show(static_cast<int>(inUse.constitution));
-  const std::string coating = describeCoatings(inUse.coatings);
-  // the other laws know none, and the text may be wanted again, as that which was refused
-  if (inUse.mode == LawMode::Corrected && (coating != coating_ || reason_->text().isEmpty()))
+  for (Text& text : texts_)
   {
-    coating_ = coating;
-    coatings_->setText(QString::fromStdString(coating));
-    coatings_->setCursorPosition(0); // the uppermost is seen first
-    showReason(*reason_, *coatings_, {});
+    const std::string used = text.inUse(inUse);
+    // the other laws know none, and the text may be wanted again, as that which was refused
+    if (inUse.mode == LawMode::Corrected && (used != text.taken || text.reason->text().isEmpty()))
+    {
+      text.taken = used;
+      text.field->setText(QString::fromStdString(used));
+      text.field->setCursorPosition(0); // the uppermost is seen first
+      showReason(*text.reason, *text.field, {});
+    }
   }
+  showWhatActs();
+}
+
+void LawPanel::setInside(const QString& inside)
+{
+  insideBody_ = inside;
   showWhatActs();
 }
 
@@ -153,8 +217,15 @@ void LawPanel::showWhatActs()
   const bool corrected = isCorrected();
   base_->setEnabled(corrected);
   constitution_->setEnabled(corrected);
-  // kept for the corrected law, and to be taken out where that refuses them
-  coatings_->setEnabled(corrected || !coatings_->text().isEmpty());
+  for (const Text& text : texts_)
+  {
+    // kept for the corrected law, and to be taken out where that refuses them
+    text.field->setEnabled(corrected || !text.field->text().isEmpty());
+  }
+  const bool isFelt = corrected && texts_[0].taken.empty();
+  inside_->setText(
+    isFelt ? insideBody_ : tr("%1: only Corrected without coatings feels it").arg(insideBody_));
+  setRowVisible(static_cast<QGridLayout&>(*layout()), inside_, !insideBody_.isEmpty());
 }
 
 } // namespace palp

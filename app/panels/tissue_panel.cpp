@@ -110,6 +110,11 @@ void TissuePanel::setScene(const Scene& scene)
   rule_->show(scene.rule == ContactRule::Paper ? 1 : 0);
 }
 
+void TissuePanel::setInside(const QString& inside)
+{
+  law_->setInside(inside);
+}
+
 void TissuePanel::askForProfile(const QString& file)
 {
   tool_->askForProfile(file);

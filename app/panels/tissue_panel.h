@@ -36,6 +36,9 @@ public:
   /// Shows what is in use, without a signal.
   void setScene(const Scene& scene);
 
+  /// As LawPanel::setInside.
+  void setInside(const QString& inside);
+
   /// As ToolPanel::askForProfile.
   void askForProfile(const QString& file);
 

@@ -24,8 +24,9 @@ namespace
 
 using namespace units::literals;
 
-constexpr int kMostTrials = 3000; // for each nodule
-constexpr int kMostStarts = 20;
+constexpr std::size_t kMostTrials = 3000; // for each nodule
+constexpr std::size_t kFewTrials = 300;   // when it begins anew
+constexpr int kMostStarts = 300;
 constexpr double kEdge = 15.0_mm; // from sharp and open edges
 constexpr double kBase = 5.0_mm;  // below a nodule to the far side
 constexpr double kSlack = 0.2_mm; // that a curved surface may bring it nearer
@@ -128,9 +129,9 @@ public:
     std::size_t most = 0;
     for (int i = 0; i < kMostStarts; ++i)
     {
-      hidden = once();
+      hidden = once(count_ * (i == 0 ? kMostTrials : kFewTrials));
       most = std::max(most, hidden.size());
-      if (hidden.size() == count_ || hidden.empty())
+      if (hidden.size() == count_ || most == 0)
       {
         break;
       }
@@ -140,11 +141,11 @@ public:
   }
 
 private:
-  std::vector<PlacedNodule> once()
+  std::vector<PlacedNodule> once(std::size_t trials)
   {
     std::vector<PlacedNodule> hidden;
     std::vector<Eigen::Vector3d> above;
-    for (std::size_t i = 0; i < count_ * kMostTrials && hidden.size() < count_; ++i)
+    for (std::size_t i = 0; i < trials && hidden.size() < count_; ++i)
     {
       const SurfacePoint place = darts_.next(engine_);
       const auto isNear = [&](const Eigen::Vector3d& other)

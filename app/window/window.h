@@ -51,7 +51,6 @@ class vtkRenderer;
 namespace palp
 {
 
-class Autosave;
 struct ExportFolder;
 struct Exported;
 struct FileOrgan;
@@ -65,7 +64,6 @@ class PressBar;
 class PressList;
 class SupportPainting;
 class SurfaceCheck;
-class BuildTrace;
 class ChartPanel;
 class PlotPanel;
 class ValidityPanel;
@@ -230,6 +228,7 @@ private:
   void endReview();
   void showPictured();
   void takeSamples();
+  void showInside();
   void clearCharts();
   void refresh();
   void fitView();
@@ -289,6 +288,7 @@ private:
   Orientation orientation_;
   ScaleBar scaleBar_;
   Balls balls_;
+  std::vector<Balls::Ball> marked_; // of a search; none: nodules that are known
   ReachOutline reach_;
   std::unique_ptr<ForceCharts> charts_; // null: the plan names no curves
   QTimer* frames_ = nullptr;            // of the picture

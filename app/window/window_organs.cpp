@@ -11,6 +11,8 @@
 #include "app/shell/dock.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "pipeline/view/appearance.h"
 
 #include <QDockWidget>
 
@@ -26,7 +28,8 @@ void Window::showBody()
   setWindowTitle(tr("Palp — %1").arg(QString::fromStdString(session_.body().name)));
   orientation_.setPatient(isPatient(session_.body()));
   shown_ = {};
-  balls_.show({});
+  marked_.clear();
+  showInside();
   makeOrganList();
   showOrgans();
   realism_.isOn() ? setRealistic(true) : void(); // as large as this body
@@ -36,6 +39,27 @@ void Window::showBody()
   dropMap();
   openSupports();
   closeCheck();
+}
+
+// what lies in the body, but what is hidden there: by the panel in words, and where one sees
+// through
+void Window::showInside()
+{
+  const SceneBody& body = session_.body();
+  const std::size_t nodules = body.training ? 0 : body.nodules.size();
+  const bool hasMap = body.stiffness ||
+    std::ranges::any_of(body.organs, [](const SceneBody& one) { return bool(one.stiffness); });
+  QStringList inside;
+  nodules > 0 ? void(inside << QString::fromStdString(counted(nodules, "nodule"))) : void();
+  hasMap ? void(inside << tr("a map of stiffness")) : void();
+  panel_->setInside(inside.join(", "));
+  std::vector<Balls::Ball> balls = marked_;
+  for (std::size_t i = 0; i < nodules && marked_.empty() && view_.look().isTranslucent; ++i)
+  {
+    balls.push_back({ body.nodules[i].center, body.nodules[i].radius, appearance::kUnknown });
+  }
+  balls_.show(balls);
+  isStale_ = true;
 }
 
 // anew for other organs; none is shown for one body

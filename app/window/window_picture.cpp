@@ -119,7 +119,7 @@ void Window::addBodyLooks(QMenu& menu)
         BodyLook look = view_.look();
         look.*part = on;
         view_.setLook(look);
-        isStale_ = true;
+        showInside();
       });
   }
   addToolLooks(*menu.addMenu(tr("&Tool")));

@@ -112,7 +112,8 @@ void Window::beginSearch()
 {
   search_ = Search{ .from = session_.newest().time };
   findChild<QAction*>("translucentAction")->setChecked(false);
-  balls_.show({});
+  marked_.clear();
+  showInside();
   lockForSearch(true);
   training_->showSearch(*session_.body().training);
   say(tr("Search what you see of %1: press and slide, watch the force, and mark with M where it "
@@ -158,9 +159,8 @@ void Window::markPlace()
     return;
   }
   search_->marks.push_back(touched->time);
-  search_->balls.push_back(markAt(touched->contact.center, appearance::kContact));
-  balls_.show(search_->balls);
-  isStale_ = true;
+  marked_.push_back(markAt(touched->contact.center, appearance::kContact));
+  showInside();
 }
 
 void Window::finishTraining()
@@ -189,9 +189,9 @@ void Window::finishTraining()
       const ScoreSheet sheet =
         scoreSheetOf(take->body.name, recording.scene, recording.samples, *take->body.training);
       training_->showResult(&sheet);
-      balls_.show(ballsOf(sheet.grade));
+      marked_ = ballsOf(sheet.grade);
       findChild<QAction*>("translucentAction")->setChecked(true);
-      isStale_ = true;
+      showInside();
       say(QString::fromStdString(summaryOf(sheet.grade)) +
         tr(": green nodules were found, yellow ones missed; black marks are false"));
     });

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "pipeline/figure/balls.h"
-
 #include <vector>
 
 namespace palp
@@ -10,9 +8,8 @@ namespace palp
 /// A search for hidden nodules that goes on in the window.
 struct Search
 {
-  double from = 0.0;                ///< [s]
-  std::vector<double> marks{};      ///< times [s]
-  std::vector<Balls::Ball> balls{}; ///< of them
+  double from = 0.0;           ///< [s]
+  std::vector<double> marks{}; ///< times [s]
 };
 
 } // namespace palp

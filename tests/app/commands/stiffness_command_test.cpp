@@ -167,7 +167,12 @@ TEST_F(StiffnessFiles, RefusesInASentence)
   for (const Case& one :
     { Case{ "labels:" + there + ":1=50kPa,7=9kPa", "label '7'; there are 1, 2" },
       Case{ "labels:" + there + ":1=liverr", "liverr" }, Case{ "labels:" + there, "labels:FILE" },
-      Case{ "image:" + nan, "is no number" }, Case{ "image:none.nii", "not found" },
+      Case{ "labels:" + there + ":1=50kPa,2=9kPa,1=6kPa", "'1' is given twice" },
+      Case{ "image:" + nan, "voxel 0,0,7 of it, counted from 0, is no number" },
+      // a term that is no number, whatever its sum with others would be
+      Case{ "formula:60+sqrt(z)", "stiffness: '60+sqrt(z)' is no number at" },
+      Case{ "formula:60+asin(x)", "is no number at" },
+      Case{ "formula:log(x)", "write ln or log10" }, Case{ "image:none.nii", "not found" },
       Case{ "formula:6+", "is no formula" }, Case{ "formula:z", "not above 0 kPa" },
       Case{ "formula:1e12", "gives 1e+12 kPa at" }, Case{ "formula:1e-4", "1 Pa to 10 GPa" },
       Case{ "random:0.3:8", "has no unit" }, Case{ "random:2:8mm", "out of range" },

@@ -106,6 +106,19 @@ TEST(PlacedPress, OnABoxOfTwelveTrianglesIsStraight)
   }
 }
 
+// the depth rises to 5.3 mm above the middle, where the tool turns to the other side, and falls
+TEST(PlacedPress, GetsAsDeepAsAThinBodyAllows)
+{
+  const Scene scene = sceneOn(test::block({ 0.08, 0.08, 0.012 }, 16), ConeTip{ 60.0_deg, 10.0_mm });
+  for (const double depth : { 2.0_mm, 4.9_mm, 5.0_mm, 5.2_mm })
+  {
+    const auto samples = pressed({ .places = { {} }, .depth = depth }, scene);
+    const Sample* deepest = deepestOf(samples);
+    ASSERT_NE(deepest, nullptr);
+    EXPECT_NEAR(deepest->contact.depth, depth, 1e-9);
+  }
+}
+
 TEST(PlacedPress, GoesDownAtTheSpeedThatWasGiven)
 {
   const Scene scene = sceneOn(test::block({ 0.2, 0.2, 0.1 }, 20));
