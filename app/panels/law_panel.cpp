@@ -113,6 +113,9 @@ void LawPanel::addTexts(QGridLayout& rows)
   friction.field->setObjectName("friction");
   friction.field->setAccessibleName(tr("Friction"));
   friction.field->setPlaceholderText(tr("\u03bc"));
+  // as wide as others leave it: it is short mostly, and the panel is narrow
+  relaxation.field->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  friction.field->setFixedWidth(fontMetrics().horizontalAdvance("0.1234567"));
   friction.field->setToolTip(
     tr("Coefficient of friction \u03bc between tool and tissue, 0 to 5; no "
        "value of a liver is known; for the corrected law"));

@@ -12,7 +12,9 @@ namespace palp
 Rule lobeRule(const Surface& surface, const Contact& contact, Base base) noexcept
 {
   constexpr double kLobe = 2.0;  // of the thickness, the least extent of the body
-  constexpr double kPlate = 3.0; // likewise, the side of a square plate of its size
+  constexpr double kPlate = 2.5; // likewise, the side of a square plate of its size
+  // whatever has its base unset: even a ball that hangs from one side gives way
+  constexpr double kUnset = 0.9;
   const BoxTree::Node& all = surface.tree().nodes().front();
   double least = std::numeric_limits<double>::infinity();
   double squares = 0.0;
@@ -25,10 +27,10 @@ Rule lobeRule(const Surface& surface, const Contact& contact, Base base) noexcep
   const double wide = std::sqrt(0.5 * squares);
   return { "lobe", "-",
     contact.touching() && base == Base::Unset
-      ? std::max(least / kLobe, wide / kPlate) / contact.thickness
+      ? std::max(kUnset, std::max(least / kLobe, wide / kPlate) / contact.thickness)
       : 0.0,
     1.0,
-    "thinner than half of the body, or than a third of its extent, and nobody says what is below: "
+    "thinner than half of the body, or than 0.4 of its extent, and nobody says what is below: "
     "a part that nothing holds bends, and is felt softer; --base says that it lies on something "
     "rigid, palp organ and --organ take the bending into account" };
 }

@@ -11,8 +11,9 @@ namespace palp
 /// Where nobody says what a body rests on, and the law takes it as held flat below the tool:
 /// whether it is so thin there that this matters.
 ///
-/// Half of the body, as a lobe of a thicker one; or a third of its extent: held at one end it gives
+/// Half of the body, as a lobe of a thicker one; or 0.4 of its extent: held at one end it gives
 /// way by bending and shear as much as a contact of a fifth of its thickness does, or more.
+/// Doubtful everywhere else, as it depends on what nobody says.
 ///
 /// @source    Timoshenko, Strength of Materials I, 1955, Sec. 39 (cantilever, with shear)
 /// @realtime  pure; no allocation, no lock, no exception

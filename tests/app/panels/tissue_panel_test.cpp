@@ -4,6 +4,7 @@
 #include "haptics/error.h"
 #include "tests/app/panels/panel_rig.h"
 
+#include <QLabel>
 #include <QLineEdit>
 #include <QSignalSpy>
 #include <QWheelEvent>
@@ -189,6 +190,62 @@ TEST_F(TissuePanelTest, TheCorrectedLawTakesCoatings)
   EXPECT_EQ(field.text(), "2mm");
   EXPECT_FALSE(reason("coatings").text().contains("--")) << reason("coatings").text().toStdString();
   EXPECT_TRUE(panel_->law().settings().coatings.empty());
+}
+
+TEST_F(TissuePanelTest, TheCorrectedLawTakesRelaxationAndFriction)
+{
+  auto& relaxation = *panel_->findChild<QLineEdit*>("relaxation");
+  auto& friction = *panel_->findChild<QLineEdit*>("friction");
+  EXPECT_FALSE(relaxation.isEnabled() || friction.isEnabled());
+  list("law").setCurrentIndex(2);
+  const QSignalSpy changes(panel_.get(), &TissuePanel::tissueChanged);
+  QTest::keyClicks(&relaxation, "0.3:50ms, 0.2:1s");
+  QTest::keyClick(&relaxation, Qt::Key_Return);
+  QTest::keyClicks(&friction, "0.25");
+  QTest::keyClick(&friction, Qt::Key_Return);
+  EXPECT_EQ(changes.count(), 2);
+  const ForceLaw law = panel_->law();
+  ASSERT_EQ(law.settings().relaxation.all().size(), 2U);
+  EXPECT_DOUBLE_EQ(law.settings().relaxation.all()[0].time, 0.05);
+  EXPECT_DOUBLE_EQ(law.settings().friction, 0.25);
+
+  // what a scene says is shown; what another law does not know is seen, but not in use
+  Scene scene = sceneOf(SphereTip{ 10.0_mm });
+  scene.law = law;
+  panel_->setScene(scene);
+  EXPECT_EQ(relaxation.text(), "0.3:0.05s,0.2:1s");
+  list("law").setCurrentIndex(0);
+  EXPECT_TRUE(panel_->law().settings().relaxation.empty());
+  EXPECT_EQ(panel_->law().settings().friction, 0.0);
+  EXPECT_EQ(relaxation.text(), "0.3:0.05s,0.2:1s");
+
+  list("law").setCurrentIndex(2);
+  for (const auto& [field, text] : { std::pair(&relaxation, "0.7:50ms,0.4:1s"),
+         { &relaxation, "0.3" }, { &friction, "-1" }, { &friction, "much" } })
+  {
+    field->selectAll();
+    QTest::keyClicks(field, text);
+    QTest::keyClick(field, Qt::Key_Return);
+    EXPECT_FALSE(reason(field->objectName().toStdString()).text().isEmpty()) << text;
+    EXPECT_DOUBLE_EQ(panel_->law().settings().friction, 0.25) << text;
+    EXPECT_EQ(panel_->law().settings().relaxation.all().size(), 2U) << text;
+  }
+}
+
+// choosing another law leaves nothing out in silence
+TEST_F(TissuePanelTest, TellsWhatTheBodyHasInside)
+{
+  const auto& inside = *panel_->findChild<QLabel*>("inside");
+  EXPECT_FALSE(inside.isVisible());
+  panel_->setInside("2 nodules");
+  EXPECT_TRUE(inside.isVisible());
+  EXPECT_EQ(inside.text(), "2 nodules: only Corrected without coatings feels it");
+  list("law").setCurrentIndex(2);
+  EXPECT_EQ(inside.text(), "2 nodules");
+  list("law").setCurrentIndex(1);
+  EXPECT_NE(inside.text(), "2 nodules");
+  panel_->setInside({});
+  EXPECT_FALSE(inside.isVisible());
 }
 
 TEST_F(TissuePanelTest, AMeasuredTissueSetsItsModulusAndAnotherOneIsCustom)

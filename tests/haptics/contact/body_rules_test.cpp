@@ -49,7 +49,10 @@ TEST(LobeRule, SeesPlatesInAnyAttitudeUnlessTheyLieOnSomething)
       const Contact contact =
         pressed(surface, Vector3d::Zero(), 1.0_mm, frame * -Vector3d::UnitZ());
       EXPECT_TRUE(contact.touching());
-      return lobeRule(surface, contact, base).holds();
+      const Rule rule = lobeRule(surface, contact, base);
+      // how it would give way is never known before its base is
+      EXPECT_EQ(rule.fraction() >= Rule::kDoubtful, base == Base::Unset);
+      return rule.holds();
     };
     for (const double thickness : { 6.0_mm, 12.0_mm, 20.0_mm, 30.0_mm })
     {
@@ -57,6 +60,7 @@ TEST(LobeRule, SeesPlatesInAnyAttitudeUnlessTheyLieOnSomething)
       EXPECT_TRUE(holds(120.0_mm, thickness, Base::Bonded)) << thickness;
       EXPECT_TRUE(holds(120.0_mm, thickness, Base::Slip)) << thickness;
     }
+    EXPECT_FALSE(holds(80.0_mm, 30.0_mm));
     EXPECT_TRUE(!frame.isIdentity() || holds(100.0_mm, 50.0_mm));
   }
   const Surface ball = test::makeSurface(test::ball(40.0_mm, 20));
