@@ -22,7 +22,7 @@ namespace
 
 constexpr double kEdges = 1.5;        // cells to an edge, from which on it is known
 constexpr double kBesideEdge = 5.0;   // cells within which it is as beside an edge
-constexpr double kNearest = 0.25;     // likewise, as near as one is taken to be
+constexpr double kNearest = 0.02;     // likewise, as near as one is taken to be
 constexpr double kThin = 2.0;         // cells on a support
 constexpr double kThinWall = 3.5;     // likewise, with nothing behind them
 constexpr double kGap = 1.4;          // likewise, across which both its sides are one
@@ -153,12 +153,12 @@ void fill(std::vector<PlacedCompliance>& places, const OrganTable& table)
         if (before[k] && (other.position - place.position).norm() < kBeside * table.spacing &&
           other.normal.dot(place.normal) > 0.0)
         {
-          const double nearer =
-            other.edge > 0.0 && place.edge > 0.0 ? place.edge / other.edge : 1.0;
+          const bool isWedge = other.edge > 0.0 && place.edge > 0.0; // W/D, and W/(2 D^2)
+          const double nearer = isWedge ? place.edge / other.edge : 0.0;
           sum.constant += other.constant +
-            (nearer > 1.0 ? 2.0 * other.slope.norm() / other.edge * (nearer - 1.0) : 0.0);
-          sum.slope += (nearer > 1.0 ? nearer * nearer : 0.0) * other.slope;
-          sum.bend += nearer > 1.0 ? other.bend : 0.0;
+            (isWedge ? 2.0 * other.slope.norm() / other.edge * (nearer - 1.0) : 0.0);
+          sum.slope += nearer * nearer * other.slope;
+          sum.bend += isWedge ? other.bend : 0.0;
           count += 1.0;
         }
       }

@@ -9,26 +9,19 @@ namespace palp
 namespace
 {
 
-constexpr double kReach = 2.3;    // spacings
-constexpr float kNearest = 0.25F; // to an edge that a place tells of, by its own distance
-constexpr float kRound = 0.15F;   // likewise, within which it comes to that
+constexpr double kReach = 2.3; // spacings
+// spacings to an edge, as near as one is taken to be: of 2 mm by cells of 4 mm, within which a
+// contact is as wide as it is far, and 1/D of its center too much
+constexpr double kNearest = 0.6;
 constexpr float kClose = 1.5F;  // spacings to an edge, within which W/D changes from place to place
 constexpr float kFacing = 0.7F; // cosine of normals from which on a place counts in full
-constexpr float kAskew = 0.3F;  // likewise, to which it is beyond an edge and does not count
+constexpr float kAskew = 0.1F;  // likewise, to which it is beyond an edge and does not count
 
 std::uint64_t keyOf(const std::array<int, 3>& cell)
 {
   constexpr std::uint64_t mask = (1U << 21U) - 1U;
   const auto part = [&](std::size_t i) { return static_cast<std::uint64_t>(cell[i]) & mask; };
   return part(0) << 42U | part(1) << 21U | part(2);
-}
-
-// how far from an edge something is, over how far a place is; it ends before the edge where the
-// place tells too little of that
-template <typename Lanes>
-Lanes fartherOf(const Lanes& past) noexcept
-{
-  return kNearest + 0.5F * (past + (past * past + kRound * kRound).sqrt());
 }
 
 // of columns
@@ -68,7 +61,7 @@ ComplianceField::ComplianceField(std::span<const PlacedCompliance> places, doubl
     const double slope = place.slope.norm();
     const bool isBeside = place.edge > 0.0;
     const double distance = isBeside ? 1.0 / place.edge : 0.0;
-    const Eigen::Vector3d away = -place.edge * place.slope.normalized();
+    const Eigen::Vector3d away = -place.slope.normalized();
     const Eigen::Vector3d gradient = (isBeside ? 0.0 : 2.0) * place.slope;
     places_.push_back({ .position = place.position.cast<float>(),
       .normal = place.normal.cast<float>(),
@@ -242,8 +235,7 @@ ComplianceField::Blend<kSpots> ComplianceField::blendAt(const Around<kSpots>& sp
           sums.row(kPart) += weight;
           sums.row(kRest) += weight * place.rest;
           sums.row(kWedge) += weight * place.wedge;
-          sums.row(kBeside) += weight * place.beside *
-            fartherOf<Lanes<kSpots>>(along(place.edge, away) + (1.0F - kNearest));
+          sums.row(kBeside) += weight * (place.beside + along(place.edge, away));
         }
         else
         {
@@ -302,15 +294,20 @@ std::array<ComplianceField::Local, kSpots> ComplianceField::tellAt(
 // its part of all slope
 template <int kSpots>
 std::array<ComplianceField::Local, kSpots> ComplianceField::localsOf(
-  const Blend<kSpots>& told) noexcept
+  const Blend<kSpots>& told) const noexcept
 {
   using Values = Eigen::Array<double, 1, kSpots>;
   const auto values = told.template cast<double>().eval();
   // over an edge, to which faces lean from either side, less than 1
-  const Values oneFace =
-    (2.0 * values.template bottomRows<3>().square().colwise().sum() - 1.0).max(0.0);
+  const Values twoFaces =
+    (2.0 - 2.0 * values.template bottomRows<3>().square().colwise().sum()).min(1.0);
+  const Values oneFace = 1.0 - twoFaces.square();
   const Values part = values.row(kPart);
-  const Values nearness = part / (part > 0.0).select(values.row(kBeside), 1.0);
+  const Values distance =
+    ((values.row(kBeside).max(0.0)).square().square() + (kNearest * cell_ * part).square().square())
+      .sqrt()
+      .sqrt();
+  const Values nearness = part / (part > 0.0).select(distance, 1.0);
   const Values wedge = values.row(kWedge) * nearness;
   const Values lean = 0.5 * wedge * nearness;
   const Values slope = values.row(kSlope) + lean;

@@ -117,7 +117,7 @@ private:
     Eigen::Vector3f position;
     Eigen::Vector3f normal;
     Eigen::Vector3f gradient; // of the constant, where no edge is near
-    Eigen::Vector3f edge;     // away from one, over the distance to it [1/m]
+    Eigen::Vector3f edge;     // away from one, of unit length
     float rest;               // of the constant, without an edge
     float slope;              // likewise
     float bend;
@@ -184,7 +184,7 @@ private:
   [[nodiscard]] std::array<Local, kSpots> tellAt(
     const std::array<Spot, kSpots>& asked) const noexcept;
   template <int kSpots>
-  [[nodiscard]] static std::array<Local, kSpots> localsOf(const Blend<kSpots>& told) noexcept;
+  [[nodiscard]] std::array<Local, kSpots> localsOf(const Blend<kSpots>& told) const noexcept;
   [[nodiscard]] static float constantOf(const Place& place) noexcept;
   void sortIntoCells();
   template <typename Visit>
