@@ -246,7 +246,7 @@ void addDetectCommand(CLI::App& app, const Renderer* pictures)
   };
   add("--cover", "Depths of the nodule's highest point A:B:STEP, both ends included", "2:20:2mm",
     [all](const std::string& text) { all->covers = coversOf(text); });
-  add("--ratio", "Young's modulus of the nodule over that of the tissue, 0.2 to 50, no unit", "7.7",
+  add("--ratio", "Young's modulus of the nodule over that of the tissue, 0.2 to 50, no unit", "7.8",
     [all](const std::string& text) { all->ratio = ratioOf(text); });
   add("--depth", "How deep the tool presses", "5mm",
     [all](const std::string& text) {
@@ -262,10 +262,10 @@ void addDetectCommand(CLI::App& app, const Renderer* pictures)
     "force,\n"
     "by 22 %: 28.2 % more force, or 18 % less.\n"
     "outside_limits: rules of palp force --validity that it breaks.\n"
-    "7.7 is a hepatocellular carcinoma in healthy liver, see palp tissues. Force and contrast\n"
+    "7.8 is a hepatocellular carcinoma in healthy liver, see palp tissues. Force and contrast\n"
     "share Young's modulus, which does not count here.\n"
     "Examples:\n"
-    "  palp detect --tip sphere:10mm --cover 2:20:2mm --ratio 7.7\n"
+    "  palp detect --tip sphere:10mm --cover 2:20:2mm --ratio 7.8\n"
     "  palp detect --tissue healthy_liver --thickness 40mm --depth 8mm --ratio 3 --out felt\n"
     "  palp detect --tip punch:4mm --cover 5:5:1mm --ratio 0.2            a cyst");
   command->callback([options, pictures] { runDetect(*options, pictures); });

@@ -124,9 +124,10 @@ DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
   addPlaces(*form);
 
   lag_->setObjectName("lag");
-  lag_->setToolTip(tr("Stiffness for the eye: the tool goes half as deep as asked in the tissue in "
-                      "use when this is switched on, a quarter as deep where it is twice as stiff, "
-                      "and all the way where it is half as stiff or softer"));
+  lag_->setToolTip(tr(
+    "Stiffness for the eye: the tool goes half as deep as asked on a thick body "
+    "of the tissue in use when this is switched on, a quarter as deep where it is twice as stiff, "
+    "and all the way where it is half as stiff or softer"));
   form->addRow(lag_);
   lag_->hide(); // it takes the place of the buttons where there is no force
 

@@ -96,8 +96,8 @@ void Window::makeDevicePanel()
     {
       isFree() ? void(attempt([&] { session_.lag(lags); })) : void();
       say(session_.lags()
-          ? tr("The tool lags where the tissue is stiff: half as deep as asked here, "
-               "a quarter where it is twice as stiff")
+          ? tr("The tool lags where the tissue is stiff: half as deep as asked on a "
+               "thick body of this tissue, a quarter where it is twice as stiff")
           : tr("The tool goes as deep as it is asked"));
     });
   connect(devicePanel_, &DevicePanel::stopAsked, this, [this] { session_.stop(true); });

@@ -140,7 +140,8 @@ ForceCharts::ForceCharts(std::optional<double> duration)
   addColumns(*lawTable_, { "depth [mm]", "force [N]" });
   lawTable_->SetNumberOfRows(kLawPoints);
   appearance::setUpChart(*overDepth_, duration ? kOverDepth : "", kDepth, kForce);
-  addLine(*overDepth_, "model", appearance::kLaw, 5.0F)->SetInputData(lawTable_, 0, 1);
+  lawPlot_ = addLine(*overDepth_, "", appearance::kLaw, 5.0F);
+  lawPlot_->SetInputData(lawTable_, 0, 1);
   depthPlot_ = addPoints(*overDepth_, "recorded", appearance::kMeasured, 3.0F);
 
   addColumns(*marked_, { "time [s]", "depth [mm]", "force [N]" });
@@ -292,6 +293,9 @@ void ForceCharts::mark(const Sample* moment)
 void ForceCharts::setLaw(const ForceLaw& law)
 {
   law_ = law;
+  // the other laws know of nothing but the depth
+  lawPlot_->SetLabel(
+    law.settings().mode == LawMode::Corrected ? "model, flat half-space" : "model");
   lawLimit_ = 0.0;
   refresh();
 }
@@ -309,7 +313,8 @@ std::vector<std::unique_ptr<Plot>> ForceCharts::plots() const
   }
   Plot& depth = *plots.emplace_back(std::make_unique<Plot>(kOverDepth, kDepth, kForce));
   vtkTable& measured = *samples_->GetOutput(1);
-  depth.addLine("model", columnOf(*lawTable_, 0), columnOf(*lawTable_, 1), appearance::kLaw, 5.0F);
+  depth.addLine(
+    lawPlot_->GetLabel(), columnOf(*lawTable_, 0), columnOf(*lawTable_, 1), appearance::kLaw, 5.0F);
   depth.addPoints("recorded", columnOf(measured, 0), columnOf(measured, 1), appearance::kMeasured,
     Plot::Mark::Circle, 3.0F);
   for (std::size_t i = 0; i < presses_.size(); ++i)

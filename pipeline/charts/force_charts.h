@@ -95,6 +95,7 @@ private:
   vtkNew<vtkPalpPointedChart> overTime_;
   vtkNew<vtkPalpPointedChart> overDepth_;
   vtkPlot* timePlot_ = nullptr; // owned by its chart, as the others
+  vtkPlot* lawPlot_ = nullptr;
   vtkPlot* renderedPlot_ = nullptr;
   vtkPlot* depthPlot_ = nullptr;
   std::optional<std::vector<PressCurve>> waiting_; // presses that are not yet drawn

@@ -141,7 +141,17 @@ TissueMap mapOfLabels(
 
 TissueMap mapOfImage(const std::filesystem::path& file, UnitChoice unit)
 {
+  constexpr float kStiffTissue = 500.0F; // [kPa]
   const FileValues image = valuesIn(file, unit, "");
+  const auto known = std::ranges::count_if(image.values, [](float value) { return value > 0.0F; });
+  const auto stiff =
+    std::ranges::count_if(image.values, [](float value) { return value > kStiffTissue; });
+  if (2 * stiff > known)
+  {
+    refuseMap(file,
+      "most of it is above " + shortest(kStiffTissue) +
+        " kPa, as no soft tissue is; its values are taken as kPa: divide those in Pa by 1000");
+  }
   const auto grid =
     std::make_shared<const ModulusGrid>(gridOf(image, measured(file, image.values, 1.0_kPa)));
   return [grid](const Eigen::Vector3d& position, double) { return grid->between(position); };

@@ -163,6 +163,11 @@ void runFit(const FitOptions& options, const Renderer* pictures)
   {
     execProgram("palp-draw");
   }
+  if (options.geometry.given && questionOf(options).settings.mode != LawMode::Corrected)
+  {
+    std::cerr
+      << "palp: thickness, surface and tilt change what is fitted with --law corrected only\n";
+  }
   std::vector<std::filesystem::path> inputs = options.files;
   inputs.push_back(fileOf(options.tip));
   Outputs outputs;

@@ -12,13 +12,16 @@
 #include "app/scene/scene_file.h"
 #include "app/train/curriculum.h"
 #include "app/train/training_text.h"
+#include "haptics/devices/simulated/scripted_path.h"
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/number_table.h"
 
 #include <CLI/CLI.hpp>
 
 #include <array>
 #include <memory>
+#include <random>
 
 namespace palp
 {
@@ -37,15 +40,17 @@ struct TrainOptions
   bool overwrite = false;
 };
 
-std::vector<double> readMarks(const std::filesystem::path& file)
+// @param end  of the path [s]
+std::vector<double> readMarks(const std::filesystem::path& file, double end)
 {
   std::vector<double> marks;
   for (const auto& [values, line] : NumberTable::readColumns(file, std::array{ "time_s" }).rows)
   {
-    if (values[0] < 0.0)
+    if (!(values[0] >= 0.0 && values[0] <= end))
     {
       throw Error(ErrorCode::BadFile,
-        where(file, line) + "a mark comes before time 0; give the seconds of the path");
+        where(file, line) + "a mark is not within the path, from 0 to " + shortest(end) +
+          " s; give its seconds");
     }
     marks.push_back(values[0]);
   }
@@ -79,7 +84,7 @@ ScenePlan planOf(const TrainOptions& options)
   plan.window = plan.validity = plan.deformed = plan.picture = false;
   plan.plots.clear();
   plan.sources.push_back(options.marks);
-  plan.training->marks = readMarks(options.marks);
+  plan.training->marks = readMarks(options.marks, readPath(options.path).duration());
   return plan;
 }
 
@@ -131,7 +136,8 @@ void addSearch(CLI::App& command, TrainOptions& options)
     .add_option("--difficulty", training.level,
       "Level: easy, medium, hard or expert; from large, shallow, hard nodules to small, deep, soft")
     ->capture_default_str();
-  addParsed(command, "--seed", "From which the places of the nodules follow, 0 to 4294967295", "1",
+  addParsed(command, "--seed",
+    "From which the places of the nodules follow, 0 to 4294967295; any in the window", "1",
     [&](const std::string& text) { training.seed = parseSeed(text); });
   addParsed(command, "--nodules", "How many, 1 to 12; as many as the level has if none", "",
     [&](const std::string& text) { training.nodules = parseNoduleCount(text); });
@@ -160,6 +166,10 @@ void run(const CLI::App& command, TrainOptions& options, const Renderer* picture
     return;
   }
   checkTogether(options);
+  if (options.path.empty() && command.count("--seed") == 0)
+  {
+    options.training.seed = std::random_device()(); // the same nodules were found once
+  }
   if (command.count("--tissue") + command.count("--young") == 0)
   {
     const double poisson = options.press.tissue.poisson;

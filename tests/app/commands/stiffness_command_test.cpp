@@ -157,6 +157,12 @@ TEST_F(StiffnessFiles, RefusesInASentence)
       const float value = k == 7 ? std::nanf("") : 5.0F;
       return std::string(reinterpret_cast<const char*>(&value), sizeof value);
     });
+  const std::string pascals = image("pa.mha", "MET_FLOAT",
+    [](int)
+    {
+      const float value = 6630.0F;
+      return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+    });
   struct Case
   {
     std::string stiffness;
@@ -173,6 +179,7 @@ TEST_F(StiffnessFiles, RefusesInASentence)
       Case{ "formula:60+sqrt(z)", "stiffness: '60+sqrt(z)' is no number at" },
       Case{ "formula:60+asin(x)", "is no number at" },
       Case{ "formula:log(x)", "write ln or log10" }, Case{ "image:none.nii", "not found" },
+      Case{ "image:" + pascals, "divide those in Pa by 1000" },
       Case{ "formula:6+", "is no formula" }, Case{ "formula:z", "not above 0 kPa" },
       Case{ "formula:1e12", "gives 1e+12 kPa at" }, Case{ "formula:1e-4", "1 Pa to 10 GPa" },
       Case{ "random:0.3:8", "has no unit" }, Case{ "random:2:8mm", "out of range" },

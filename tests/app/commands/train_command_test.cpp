@@ -172,8 +172,11 @@ TEST_F(TrainCommand, RefusesWhatCannotBeGradedInOneSentence)
   expectRefusal(train("--side 0,0,0 " + out), "--side");
   expectRefusal(train(""), "give all three");
   expectRefusal(palp("train --marks " + file("marks.csv")), "give all three");
-  mark({ -1.0 });
-  expectRefusal(train(out), "comes before time 0");
+  for (const double outside : { -1.0, 1e4 })
+  {
+    mark({ outside });
+    expectRefusal(train(out), "a mark is not within the path, from 0 to ");
+  }
   EXPECT_FALSE(std::filesystem::exists(folder() / "graded"));
 }
 

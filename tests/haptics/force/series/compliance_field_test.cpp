@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -157,6 +158,49 @@ TEST_P(ComplianceFieldAtARim, TellsFourAsOneByOne)
 }
 
 // one of four may be within reach of a place and the next not
+// Of a quarter space the constant is W/D, wherever along its edge and however its places lie: those
+// next to the edge, too, which tell of a hundred times more.
+TEST(ComplianceField, AlongAStraightEdgeIsTheSame)
+{
+  constexpr double kWedge = 0.345; // of a right angle, Poisson's ratio 0.45
+  constexpr double kRest = -22.0;  // [1/m], of a base below
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> depth(0.1_mm, 20.0_mm);
+  std::uniform_real_distribution<double> along(-40.0_mm, 40.0_mm);
+  std::vector<PlacedCompliance> places;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const Vector3d position(depth(engine), along(engine), 0.0);
+    const auto isNear = [&](const PlacedCompliance& other)
+    { return (other.position - position).norm() < kSpacing; };
+    if (std::ranges::none_of(places, isNear))
+    {
+      const double nearness = 1.0 / position.x();
+      places.push_back({ .position = position,
+        .constant = kRest + kWedge * nearness,
+        .slope = Vector3d(-0.5 * kWedge * nearness * nearness, 0.0, 0.0),
+        .bend = 8e4,
+        .edge = nearness });
+    }
+  }
+  const ComplianceField field(places, kSpacing, 0.45);
+  for (const double distance : { 1.0_mm, 2.0_mm, 4.0_mm, 6.0_mm, 9.0_mm })
+  {
+    double least = 1e9;
+    double most = 0.0;
+    for (double y = -25.0_mm; y <= 25.0_mm; y += 0.5_mm)
+    {
+      const auto told = field.at({ distance, y, 0.0 }, Vector3d::UnitZ()).body;
+      least = std::min(least, told.constant - kRest);
+      most = std::max(most, told.constant - kRest);
+    }
+    EXPECT_LT(most, 1.03 * least) << distance;
+    // a contact is as wide as it is far from an edge that is nearer than a spacing
+    EXPECT_LT(most, 1.03 * kWedge / distance) << distance;
+    EXPECT_GT(least, (distance > kSpacing ? 0.97 : 0.3) * kWedge / distance) << distance;
+  }
+}
+
 TEST(ComplianceField, EndsWithoutALeapToNoNumber)
 {
   const PlacedCompliance place{ .position = Vector3d::Zero(), .constant = 100.0 };
