@@ -170,12 +170,12 @@ void ComplianceField::sharpen()
 
 template <int kSpots>
 ComplianceField::Around<kSpots>::Around(const std::array<Spot, kSpots>& spots) noexcept
-  : origin(spots[0].center)
+  : origin(spots[0].center.template cast<float>())
 {
   for (int k = 0; k < kSpots; ++k)
   {
     const Spot& spot = spots[static_cast<std::size_t>(k)];
-    centers.col(k) = (spot.center - origin).array().template cast<float>();
+    centers.col(k) = (spot.center - origin.template cast<double>()).array().template cast<float>();
     normals.col(k) = spot.normal.array().template cast<float>();
     heights[k] = static_cast<float>(spot.height);
   }
@@ -184,9 +184,9 @@ ComplianceField::Around<kSpots>::Around(const std::array<Spot, kSpots>& spots) n
 template <int kSpots>
 void ComplianceField::Around<kSpots>::move(const Rows<3, kSpots>& way) noexcept
 {
-  const Eigen::Array3f first = way.col(0);
-  origin += first.matrix().template cast<double>();
-  centers += way.colwise() - first;
+  const Eigen::Vector3f before = origin;
+  origin += way.col(0).matrix();
+  centers += way.colwise() - (origin - before).array(); // exact, as they are near to each other
 }
 
 // by a weight of Wendland's, 1 at a place and 0 from its reach on
@@ -194,14 +194,13 @@ template <int kSpots, typename Visit>
 ComplianceField::Lanes<kSpots> ComplianceField::forNear(
   const Around<kSpots>& spots, const Range& range, const Visit& visit) const noexcept
 {
-  const Eigen::Vector3f origin = spots.origin.template cast<float>();
   const Eigen::Vector3f normal = spots.normals.col(0);
   constexpr float kTurned = 0.1F; // more than the spots' normals differ
   Lanes<kSpots> all = Lanes<kSpots>::Zero();
   for (std::uint32_t k = range.first; k < range.last; ++k)
   {
     const Place& place = places_[near_[k]];
-    const Eigen::Vector3f to = origin - place.position;
+    const Eigen::Vector3f to = spots.origin - place.position;
     if (to.squaredNorm() >= reach_ * reach_ || place.normal.dot(normal) < kAskew - kTurned)
     {
       continue;
@@ -224,7 +223,7 @@ ComplianceField::Blend<kSpots> ComplianceField::blendAt(const Around<kSpots>& sp
 {
   Blend<kSpots> sums = Blend<kSpots>::Zero();
   const Lanes<kSpots> all = forNear<kSpots>(
-    spots, near(spots.origin),
+    spots, near(spots.origin.template cast<double>()),
     [&](const Place& place, const Rows<3, kSpots>& away, const Lanes<kSpots>& weight)
       __attribute__((always_inline)) {
         sums.template bottomRows<3>().matrix() += place.normal * weight.matrix();
@@ -256,7 +255,7 @@ ComplianceField::Blend<kSpots> ComplianceField::blendAt(const Around<kSpots>& sp
 template <int kSpots>
 void ComplianceField::drop(Around<kSpots>& spots) const noexcept
 {
-  const Range range = near(spots.origin);
+  const Range range = near(spots.origin.template cast<double>());
   if (!(spots.heights[0] > 0.0F && range.isBeside))
   {
     return;

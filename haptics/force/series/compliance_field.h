@@ -153,7 +153,7 @@ private:
     explicit Around(const std::array<Spot, kSpots>& spots) noexcept;
     void move(const Rows<3, kSpots>& way) noexcept;
 
-    Eigen::Vector3d origin;  // the first one's center [m]
+    Eigen::Vector3f origin;  // the first one's center, nearly [m]
     Rows<3, kSpots> centers; // from there
     Rows<3, kSpots> normals;
     Lanes<kSpots> heights;
