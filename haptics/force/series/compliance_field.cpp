@@ -195,7 +195,7 @@ ComplianceField::Lanes<kSpots> ComplianceField::forNear(
   const Around<kSpots>& spots, const Range& range, const Visit& visit) const noexcept
 {
   const Eigen::Vector3f normal = spots.normals.col(0);
-  constexpr float kTurned = 0.1F; // more than the spots' normals differ
+  constexpr float kTurned = 0.05F; // more than the spots' normals differ
   Lanes<kSpots> all = Lanes<kSpots>::Zero();
   for (std::uint32_t k = range.first; k < range.last; ++k)
   {
