@@ -121,7 +121,7 @@ void LawPanel::addTexts(QGridLayout& rows)
        "value of a liver is known; for the corrected law"));
   addRow(rows, tr("Coatings"), coatings.field);
   coatings.reason = addReason(rows, *coatings.field);
-  addRow(rows, tr("Relaxation, friction"), sideBySide(friction.field, relaxation.field));
+  addRow(rows, tr("Friction, relaxation"), sideBySide(friction.field, relaxation.field));
   relaxation.reason = addReason(rows, *relaxation.field);
   friction.reason = addReason(rows, *friction.field);
 }
