@@ -41,7 +41,11 @@ protected:
   {
     for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
     {
-      button->text() == choice ? button->click() : void();
+      if (button->text() == choice)
+      {
+        button->click(); // which takes the others away
+        return;
+      }
     }
   }
 
