@@ -37,6 +37,15 @@ QWidget* sideBySide(QWidget* first, QWidget* second)
   return pair;
 }
 
+void describe(
+  QLineEdit& field, const char* id, const QString& name, const QString& example, const QString& tip)
+{
+  field.setObjectName(id);
+  field.setAccessibleName(name);
+  field.setPlaceholderText(example);
+  field.setToolTip(tip);
+}
+
 double frictionIn(const std::string& text)
 {
   return text.empty() ? 0.0 : parseFriction(text, LawPanel::tr("Friction").toStdString());
@@ -99,26 +108,18 @@ LawPanel::LawPanel(const LawSettings& inUse, bool rated, QWidget* parent)
 void LawPanel::addTexts(QGridLayout& rows)
 {
   auto& [coatings, relaxation, friction] = texts_;
-  coatings.field->setObjectName("coatings");
-  coatings.field->setPlaceholderText(tr("e.g. 2mm:200kPa:0.45"));
-  coatings.field->setToolTip(
+  describe(*coatings.field, "coatings", tr("Coatings"), tr("e.g. 2mm:200kPa:0.45"),
     tr("Skin, fat, a capsule from the surface down: thickness, Young's modulus "
        "and Poisson's ratio of each, with commas between; for the corrected law"));
-  relaxation.field->setObjectName("relaxation");
-  relaxation.field->setAccessibleName(tr("Relaxation"));
-  relaxation.field->setPlaceholderText(tr("e.g. 0.3:50ms"));
-  relaxation.field->setToolTip(
+  describe(*relaxation.field, "relaxation", tr("Relaxation"), tr("e.g. 0.3:50ms"),
     tr("Parts of the modulus that decay, and their times, with commas between, as in "
        "0.3:50ms,0.2:1s; E is the modulus of the first moment; for the corrected law"));
-  friction.field->setObjectName("friction");
-  friction.field->setAccessibleName(tr("Friction"));
-  friction.field->setPlaceholderText(tr("\u03bc"));
-  // as wide as others leave it: it is short mostly, and the panel is narrow
-  relaxation.field->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  friction.field->setFixedWidth(fontMetrics().horizontalAdvance("0.1234567"));
-  friction.field->setToolTip(
+  describe(*friction.field, "friction", tr("Friction"), tr("\u03bc"),
     tr("Coefficient of friction \u03bc between tool and tissue, 0 to 5; no "
        "value of a liver is known; for the corrected law"));
+  // as wide as others leave it: friction is short mostly, and the panel is narrow
+  relaxation.field->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  friction.field->setFixedWidth(fontMetrics().horizontalAdvance("0.1234567"));
   addRow(rows, tr("Coatings"), coatings.field);
   coatings.reason = addReason(rows, *coatings.field);
   addRow(rows, tr("Friction, relaxation"), sideBySide(friction.field, relaxation.field));

@@ -303,7 +303,7 @@ std::array<ComplianceField::Local, kSpots> ComplianceField::localsOf(
   const Values oneFace = 1.0 - twoFaces.square();
   const Values part = values.row(kPart);
   const Values distance =
-    ((values.row(kBeside).max(0.0)).square().square() + (kNearest * cell_ * part).square().square())
+    (values.row(kBeside).max(0.0).square().square() + (kNearest * cell_ * part).square().square())
       .sqrt()
       .sqrt();
   const Values nearness = part / (part > 0.0).select(distance, 1.0);
