@@ -62,14 +62,6 @@ protected:
     EXPECT_TRUE(said().startsWith("Stiffness map:")) << said().toStdString();
   }
 
-  void answer(const QString& choice) const
-  {
-    for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
-    {
-      button->text() == choice ? button->click() : void();
-    }
-  }
-
   // pixels of the picture whose color is like that of the bright end of the map
   [[nodiscard]] int countOf(const std::function<bool(const QColor&)>& isLike)
   {

@@ -175,10 +175,7 @@ TEST_F(PressBarTest, OffersAndPressesThePlacesOfAList)
 
   type("pressDepth", "2");
   type("pressSpeed", "20 mm/s");
-  for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
-  {
-    button->text() == "Press all" ? button->click() : void();
-  }
+  answer("Press all");
   const auto& presses = session_->presses().presses();
   EXPECT_TRUE(QTest::qWaitFor([&] { return presses.size() == 2; }, 2 * kPatience));
   const Eigen::Vector3d places[]{ { -48.5e-3, 38.4e-3, 39.5e-3 }, { -14.8e-3, -3.6e-3, 77.5e-3 } };

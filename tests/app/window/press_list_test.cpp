@@ -5,7 +5,6 @@
 #include <QAction>
 #include <QComboBox>
 #include <QMenu>
-#include <QPushButton>
 #include <QTabBar>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -70,14 +69,6 @@ protected:
       }
     }
     ADD_FAILURE() << text.toStdString() << " is not there";
-  }
-
-  void restore() const
-  {
-    for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
-    {
-      button->text() == "Restore" ? button->click() : void();
-    }
   }
 };
 
@@ -188,7 +179,7 @@ TEST_F(PressListTest, RestoresWhatWasNotExported)
   Autosave after(folder_.path());
   window_->saveTo(after);
   EXPECT_TRUE(said().startsWith("Not exported yet: 2 presses of before")) << said().toStdString();
-  restore();
+  answer("Restore");
   waitForRows(4);
   EXPECT_EQ(cell(2, "Press"), "left lobe (2)") << "as it was called, and told from the other";
   EXPECT_EQ(cell(2, "F max [N]"), first);
@@ -224,7 +215,7 @@ TEST_F(PressListTest, ExportsThePressesOfOneToolIntoOneFolder)
   before.reset();
   Autosave after(folder_.path() / "state");
   window_->saveTo(after);
-  restore();
+  answer("Restore");
   waitForRows(4);
   pressOnce(50);
   const std::vector<std::string> first{ "left lobe", "press 2", "left lobe", "press 2", "press 5" };

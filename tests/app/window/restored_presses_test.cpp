@@ -3,8 +3,6 @@
 #include "app/scene/scene_file.h"
 #include "tests/app/window/window_rig.h"
 
-#include <QPushButton>
-
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <optional>
@@ -35,18 +33,6 @@ protected:
   ~RestoredPresses() override
   {
     session_->saveTo(nullptr);
-  }
-
-  void answer(const QString& choice) const
-  {
-    for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
-    {
-      if (button->text() == choice)
-      {
-        button->click(); // which takes the others away
-        return;
-      }
-    }
   }
 
   std::optional<Autosave> now_;
@@ -210,10 +196,7 @@ TEST_F(LostBody, ItsPressesAreKeptUntilItIsBack)
   ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/liver.vtp")); // so that it is read anew
   std::filesystem::rename(body, body.string() + ".away");
   window_->saveTo(*now);
-  for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
-  {
-    button->text() == "Restore" ? button->click() : void();
-  }
+  answer("Restore");
   EXPECT_TRUE(said().startsWith("A press of before is kept, but not restored: "))
     << said().toStdString();
   EXPECT_FALSE(std::filesystem::exists(body));

@@ -11,7 +11,6 @@
 #include <QFileDialog>
 #include <QImage>
 #include <QLineEdit>
-#include <QPushButton>
 #include <QStatusBar>
 #include <QTabBar>
 #include <QTimer>
@@ -294,10 +293,7 @@ TEST_F(WindowTest, AsksBeforeAnExportReplacesFiles)
   EXPECT_TRUE(said().contains("samples.csv")) << said().toStdString();
   EXPECT_EQ(test::readAll(file), "mine");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
-  for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
-  {
-    button->text() == "Replace" ? button->click() : void();
-  }
+  answer("Replace");
   EXPECT_TRUE(test::readAll(file).starts_with("# palp"));
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "servo.csv"));
 }

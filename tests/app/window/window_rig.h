@@ -10,6 +10,7 @@
 #include <QAbstractSpinBox>
 #include <QAction>
 #include <QDeadlineTimer>
+#include <QPushButton>
 #include <QTest>
 #include <QTimer>
 #include <QVTKOpenGLNativeWidget.h>
@@ -155,6 +156,15 @@ protected:
   [[nodiscard]] QString said() const
   {
     return window_->findChild<MessageBar*>()->text();
+  }
+
+  // there, by a button that is taken away with the others
+  void answer(const QString& choice) const
+  {
+    const auto buttons = window_->findChild<MessageBar*>()->findChildren<QPushButton*>();
+    const auto found = std::ranges::find(buttons, choice, &QPushButton::text);
+    ASSERT_NE(found, buttons.end()) << choice.toStdString();
+    (*found)->click();
   }
 
   void type(const char* name, const char* text) const
