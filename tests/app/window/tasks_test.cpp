@@ -78,6 +78,10 @@ protected:
         {
           return;
         }
+        if (!dialog->isActiveWindow()) // a file dialog changes a name that is typed before that
+        {
+          return QApplication::setActiveWindow(dialog);
+        }
         const auto& [name, text] = lines[next];
         if (auto* field = name.isEmpty() ? dialog->findChild<QLineEdit*>()
                                          : dialog->findChild<QLineEdit*>(name))
