@@ -18,13 +18,22 @@ LinearContact contactOf(const SphereTip& tip, double depth) noexcept
 {
   // a = R tanh(p), depth = R p tanh(p); small p by the series, where the difference loses digits
   const double ratio = depth / tip.radius;
-  const double p = newton(ratio + std::sqrt(ratio) / (1.0 + ratio),
-    [ratio](double q)
-    {
-      const double t = std::tanh(q);
-      return (q * t - ratio) / (t + q * (1.0 - t * t));
-    });
-  const double t = std::tanh(p);
+  const double ratio2 = ratio * ratio;
+  // to 0.3 % for any depth, so that Halley's second step has every digit
+  double p = std::sqrt(ratio +
+    ratio2 * (1.0 / 3.0 + 0.128 * ratio + 0.1493 * ratio2) /
+      (1.0 + 0.238 * ratio + 0.1493 * ratio2));
+  double t = 0.0;
+  for (int i = 0; i < 2; ++i)
+  {
+    t = std::tanh(p);
+    const double falling = 1.0 - t * t; // slope of tanh
+    const double off = p * t - ratio;
+    const double slope = t + p * falling;
+    const double step = off * slope / (slope * slope - off * falling * (1.0 - p * t));
+    p -= step;
+    t -= step * falling;
+  }
   const double p2 = p * p;
   const double area = p < 0.03
     ? p * p2 * (4.0 / 3.0 - p2 * (4.0 / 5.0 - p2 * (136.0 / 315.0 - p2 * (124.0 / 567.0))))

@@ -106,15 +106,10 @@ void ComplianceField::sortIntoCells()
   for (auto& [key, cell] : cells_)
   {
     const std::uint32_t first = std::exchange(count, count + cell.last);
-    cell = { first, first, false };
+    cell = { first, first };
   }
   near_.resize(count);
-  forReached(
-    [this](Range& cell, std::uint32_t i)
-    {
-      near_[cell.last++] = i;
-      cell.isBeside |= places_[i].beside > 0.0F;
-    });
+  forReached([this](Range& cell, std::uint32_t i) { near_[cell.last++] = i; });
 }
 
 template <typename Visit>
@@ -154,7 +149,7 @@ void ComplianceField::sharpen()
     {
       const Place& one = wanted[i];
       const Around<1> spot({ Spot{ one.position.cast<double>(), one.normal.cast<double>() } });
-      const Blend<1> told = blendAt<1>(spot);
+      const Blend<1> told = blendAt<1>(spot, near(one.position.cast<double>()));
       const auto constant = static_cast<float>(localsOf<1>(told)[0].body.constant);
       const float beside = told[kPart];
       const bool isClose = told[kBeside] < kClose * static_cast<float>(cell_) * beside;
@@ -219,11 +214,12 @@ ComplianceField::Lanes<kSpots> ComplianceField::forNear(
 }
 
 template <int kSpots>
-ComplianceField::Blend<kSpots> ComplianceField::blendAt(const Around<kSpots>& spots) const noexcept
+ComplianceField::Blend<kSpots> ComplianceField::blendAt(
+  const Around<kSpots>& spots, const Range& range) const noexcept
 {
   Blend<kSpots> sums = Blend<kSpots>::Zero();
   const Lanes<kSpots> all = forNear<kSpots>(
-    spots, near(spots.origin.template cast<double>()),
+    spots, range,
     [&](const Place& place, const Rows<3, kSpots>& away, const Lanes<kSpots>& weight)
       __attribute__((always_inline)) {
         sums.template bottomRows<3>().matrix() += place.normal * weight.matrix();
@@ -253,40 +249,34 @@ ComplianceField::Blend<kSpots> ComplianceField::blendAt(const Around<kSpots>& sp
 
 // over an edge the normal leans from that of the face, whose foot is elsewhere
 template <int kSpots>
-void ComplianceField::drop(Around<kSpots>& spots) const noexcept
+ComplianceField::Rows<3, kSpots> ComplianceField::toFace(
+  const Around<kSpots>& spots, const Blend<kSpots>& told) const noexcept
 {
-  const Range range = near(spots.origin.template cast<double>());
-  if (!(spots.heights[0] > 0.0F && range.isBeside))
-  {
-    return;
-  }
-  Lanes<kSpots> beside = Lanes<kSpots>::Zero();
-  Rows<3, kSpots> faces = Rows<3, kSpots>::Zero();
-  const Lanes<kSpots> all = forNear<kSpots>(
-    spots, range,
-    [&](const Place& place, const Rows<3, kSpots>&, const Lanes<kSpots>& weight)
-      __attribute__((always_inline)) {
-        beside += place.beside > 0.0F ? weight : Lanes<kSpots>::Zero();
-        faces.matrix() += place.normal * weight.matrix();
-      });
-  if (!(all.minCoeff() > 0.0F))
-  {
-    return;
-  }
-  const Rows<3, kSpots> leaning =
-    (spots.normals - faces.rowwise() / lengthsOf(faces)).rowwise() * (beside / all * spots.heights);
+  const auto faces = told.template bottomRows<3>();
+  const Rows<3, kSpots> leaning = (spots.normals - faces.rowwise() / lengthsOf(faces)).rowwise() *
+    (told.row(kPart) * spots.heights);
   // beyond an edge no further than places reach
   const auto most = static_cast<float>(cell_);
-  spots.move(leaning.rowwise() / (1.0F + (lengthsOf(leaning) / most).square()).sqrt());
+  return leaning.rowwise() / (1.0F + (lengthsOf(leaning) / most).square()).sqrt();
 }
 
 template <int kSpots>
 std::array<ComplianceField::Local, kSpots> ComplianceField::tellAt(
   const std::array<Spot, kSpots>& asked) const noexcept
 {
+  constexpr float kStill = 2e-8F; // [m] that moves a force by less than 1e-5 of itself
   Around<kSpots> spots(asked);
-  drop(spots);
-  return localsOf<kSpots>(blendAt(spots));
+  Blend<kSpots> told = blendAt(spots, near(asked[0].center));
+  if (spots.heights[0] > 0.0F && told.row(kPart).minCoeff() > 0.0F)
+  {
+    const Rows<3, kSpots> way = toFace(spots, told);
+    if (way.abs().maxCoeff() > kStill)
+    {
+      spots.move(way);
+      told = blendAt(spots, near(spots.origin.template cast<double>()));
+    }
+  }
+  return localsOf<kSpots>(told);
 }
 
 // beside edges, of the wedge that places there tell together: W/D, its slope W/(2 D^2), and 1/D by

@@ -167,7 +167,6 @@ private:
   {
     std::uint32_t first = 0;
     std::uint32_t last = 0; // the one behind it
-    bool isBeside = false;  // any of them, an edge
   };
 
   [[nodiscard]] Cell cellOf(const Eigen::Vector3d& place) const noexcept;
@@ -177,9 +176,11 @@ private:
   Lanes<kSpots> forNear(
     const Around<kSpots>& spots, const Range& range, const Visit& visit) const noexcept;
   template <int kSpots>
-  [[nodiscard]] Blend<kSpots> blendAt(const Around<kSpots>& spots) const noexcept;
+  [[nodiscard]] Blend<kSpots> blendAt(
+    const Around<kSpots>& spots, const Range& range) const noexcept;
   template <int kSpots>
-  void drop(Around<kSpots>& spots) const noexcept; // to the face below each
+  [[nodiscard]] Rows<3, kSpots> toFace(
+    const Around<kSpots>& spots, const Blend<kSpots>& told) const noexcept; // to the foot on it
   template <int kSpots>
   [[nodiscard]] std::array<Local, kSpots> tellAt(
     const std::array<Spot, kSpots>& asked) const noexcept;

@@ -15,7 +15,14 @@ constexpr int kIntervals = 96;
 constexpr double kDeepest = 3.0;        // of the base radius, for the tables
 constexpr double kWidened = 4.0 / 15.0; // of a pressure as that of a paraboloid
 
-// x (1 + x / D)^2 = pull, where that is 0 or more
+// grows with x
+double pullOf(double x, double edge) noexcept
+{
+  const double far = 1.0 + edge * x;
+  return x * far * far;
+}
+
+// x of a pull that is 0 or more
 double asideOf(double pull, double edge) noexcept
 {
   if (!(edge > 0.0))
@@ -93,23 +100,23 @@ SeriesLaw::SeriesLaw(const Tip& tip, double modulus)
 
 SeriesLaw::Radius SeriesLaw::radiusOf(double force) const noexcept
 {
-  const double root = std::cbrt(std::max(0.0, force));
+  return radiusAt(std::cbrt(std::max(0.0, force)));
+}
+
+SeriesLaw::Radius SeriesLaw::radiusAt(double root) const noexcept
+{
   const CubicSpline::Value radius = (*radii_)(root);
   return { radius.value,
     root > 0.0 && root < axis_.last ? radius.slope / (3.0 * root * root) : 0.0 };
 }
 
-double SeriesLaw::widened(double force) const noexcept
+double SeriesLaw::widenedAt(double root, double radius) const noexcept
 {
-  const double root = std::cbrt(std::max(0.0, force));
-  const double known = (*widened_)(root).value;
-  if (root <= axis_.last)
-  {
-    return known;
-  }
-  const double edge = axis_.last * axis_.last * axis_.last;
-  const double radius = (*radii_)(root).value; // as wide as where the tables end
-  return known + 0.5 * radius * radius * (force * force - edge * edge);
+  // beyond the tables as wide as where they end
+  const double cube = root * root * root;
+  const double last = axis_.last * axis_.last * axis_.last;
+  const double beyond = std::max(0.0, cube * cube - last * last);
+  return (*widened_)(root).value + 0.5 * radius * radius * beyond;
 }
 
 SeriesLaw::Yield SeriesLaw::yieldOf(double force, const BodyCompliance& body) const noexcept
@@ -164,16 +171,18 @@ SeriesLaw::Gain SeriesLaw::gainOf(
   const double a = width.value;
   const double wider = force * width.slope / a; // a as a power of the force
   const double q = isSphere_ ? round_ * force : 4.0 / 3.0 * a * a * a;
-  const double free = asideOf(q * body.slope, body.edge);
-  const double x = std::min(free, 0.5 * a);
+  const double pull = q * body.slope;
+  const double most = 0.5 * a;
+  const bool isHeld = pullOf(most, body.edge) < pull;
+  const double x = isHeld ? most : asideOf(pull, body.edge);
   const double far = 1.0 + body.edge * x;
   return { .aside = x,
     .far = far,
     .nearer = body.slope * x / far,
     .less = 0.5 * x * x / q,
     .power = isSphere_ ? 1.0 : 3.0 * wider,
-    .wider = free > x ? wider : 0.0,
-    .isHeld = free > x };
+    .wider = isHeld ? wider : 0.0,
+    .isHeld = isHeld };
 }
 
 double SeriesLaw::aside(const BodyCompliance& body, double force) const noexcept
@@ -203,10 +212,12 @@ Eigen::Vector3d SeriesLaw::lateral(const BodyCompliance& here,
 SeriesLaw::Moved SeriesLaw::movedBy(double force, const BodyCompliance& body) const noexcept
 {
   const double f = force / modulus_;
-  Moved moved{ f, widened(f), 0.0, 0.0 };
+  const double root = std::cbrt(std::max(0.0, f));
+  const Radius width = radiusAt(root);
+  Moved moved{ f, widenedAt(root, width.value), 0.0, 0.0 };
   if (body.slope > 0.0 && f > 0.0)
   {
-    const Gain gain = gainOf(f, radiusOf(f), body);
+    const Gain gain = gainOf(f, width, body);
     moved.aside = gain.aside;
     moved.less = gain.less;
   }

@@ -108,7 +108,8 @@ public:
 private:
   static constexpr int kMostSteps = 8;   // three are usual
   static constexpr double kLeast = 0.25; // of the slope of the depth by the local depth
-  static constexpr double kNear = 1e-8;  // of the depth's cube: steps to where lines will do
+  static constexpr double kNear =
+    1e-6; // of the depth's cube: steps to where the force errs by 1e-7
 
   // by which a body gives way to a force over E*, and its derivative
   struct Yield
@@ -169,7 +170,8 @@ private:
   };
 
   [[nodiscard]] Radius radiusOf(double force) const noexcept;
-  [[nodiscard]] double widened(double force) const noexcept; // int a^2 f df
+  [[nodiscard]] Radius radiusAt(double root) const noexcept; // of the cube root of f
+  [[nodiscard]] double widenedAt(double root, double radius) const noexcept; // int a^2 f df
   [[nodiscard]] Moved movedBy(double force, const BodyCompliance& body) const noexcept;
   // over E*, without what moving costs the contact
   [[nodiscard]] static double energyOf(const Moved& moved, const BodyCompliance& body) noexcept;
