@@ -175,6 +175,7 @@ SceneBody loadParts(
     }
     origin.moved = !source.frame().isApprox(Eigen::Isometry3d::Identity());
     body.compliance = placedCompliance(meshes, origin);
+    noteAxes(source.supports, spaceOf({ origin }), body.notes);
     noteSupports(source.supports, source.organ, body.notes);
   }
   progress.emplace("preparing " + printable(body.name));

@@ -292,6 +292,23 @@ void checkSupports(const std::vector<std::string>& supports, const std::filesyst
   }
 }
 
+void noteAxes(const std::vector<std::string>& supports, const std::string& space,
+  std::vector<std::string>& notes)
+{
+  const auto isOfPatient = [](const std::string& support)
+  {
+    const std::string word = support.substr(support.find(':') + 1); // all of it without a kind
+    return word == "posterior" || word == "ligaments" || word == "hilum";
+  };
+  if (const auto found = std::ranges::find_if(supports, isOfPatient);
+      found != supports.end() && space != "LPS")
+  {
+    notes.push_back("warning: " + *found +
+      " takes y to the back and z to the head, and the surface does not say that it lies so; "
+      "else give bonded:direction:X,Y,Z:60deg");
+  }
+}
+
 void noteSupports(const std::vector<std::string>& supports, const std::filesystem::path& organ,
   std::vector<std::string>& notes)
 {

@@ -55,6 +55,11 @@ using FindRegion = std::function<SupportRegion(const std::string& label)>;
 void checkSupports(const std::vector<std::string>& supports, const std::filesystem::path& organ,
   const std::string& described);
 
+/// Warns of words as posterior where axes are not known to be those of a patient.
+/// @param space  as of spaceOf
+void noteAxes(const std::vector<std::string>& supports, const std::string& space,
+  std::vector<std::string>& notes);
+
 /// Warns of supports that are given without an organ file.
 void noteSupports(const std::vector<std::string>& supports, const std::filesystem::path& organ,
   std::vector<std::string>& notes);

@@ -1,6 +1,7 @@
 #include "app/commands/organ/organ_command.h"
 #include "app/commands/organ/organ_file.h"
 #include "app/commands/organ/organ_place.h"
+#include "app/input/mesh_file.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"
 #include "app/input/press_places.h"
@@ -11,6 +12,7 @@
 #include "app/program/output.h"
 #include "app/stiffness/stiffness_text.h"
 #include "app/supports/support_region.h"
+#include "app/supports/support_text.h"
 #include "calibration/figures/table.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
@@ -194,7 +196,9 @@ void runOrgan(const OrganOptions& options)
     interrupt->endWhatDoesNotStop(kNoPlaceYet);
   }
   const SceneBody body = loadBody({ options.mesh });
-  for (const std::string& note : body.notes)
+  std::vector<std::string> notes = body.notes;
+  noteAxes(options.supports, spaceOf(body.files), notes);
+  for (const std::string& note : notes)
   {
     std::cerr << "palp: " << note << '\n';
   }

@@ -39,6 +39,22 @@ TEST(SupportText, HoldsTheSurfaceThere)
   EXPECT_FALSE(base.holds({ 0.0, 10.0_mm, 0.0 }));
 }
 
+TEST(SupportText, OfAPatientIsToldWhereAxesAreNotKnown)
+{
+  for (const char* support : { "posterior", "sliding:hilum", "bonded:ligaments" })
+  {
+    std::vector<std::string> notes;
+    noteAxes({ "bonded:direction:0,1,0:60deg", support }, "LPS", notes);
+    EXPECT_TRUE(notes.empty());
+    noteAxes({ "bonded:direction:0,1,0:60deg", support }, "", notes);
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes[0].find(std::string(support) + " takes y to the back"), std::string::npos);
+  }
+  std::vector<std::string> notes;
+  noteAxes({ "bonded:direction:0,1,0:60deg", "bonded:points:posterior" }, "", notes);
+  EXPECT_TRUE(notes.empty());
+}
+
 // it faces the same way as the base, but rests on nothing
 TEST(SupportText, HoldsNoWallOfAHollow)
 {
