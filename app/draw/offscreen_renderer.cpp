@@ -166,11 +166,12 @@ Plots deepestSection(
   }
   vtkNew<vtkPalpDeformFilter> press;
   const Calibration& organ = organOf(calibration, deepest->organ);
-  press->SetInputData(body.felt(recording.organs, deepest->organ).display);
+  const SceneBody& pressed = body.felt(recording.organs, deepest->organ);
+  press->SetInputData(pressed.display);
   press->GeneratePatchOn();
   press->SetPress(pressOf(*deepest, recording.scene.law.tip(), organ));
   press->Update();
-  return sectionOf(*press, organ);
+  return sectionOf(*press, organ, pressed.shownNodules());
 }
 
 // first, as the band is about it; elements take sheets that are too thin or too stiff for the law

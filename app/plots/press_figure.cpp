@@ -59,6 +59,16 @@ void addCaption(vtkRenderer& renderer, const std::string& caption, double scale)
 
 } // namespace
 
+std::vector<Balls::Ball> ballsOf(std::span<const PlacedNodule> nodules)
+{
+  std::vector<Balls::Ball> balls;
+  for (const PlacedNodule& nodule : nodules)
+  {
+    balls.push_back({ nodule.center, nodule.radius, appearance::kUnknown });
+  }
+  return balls;
+}
+
 PressMoment momentOf(const SceneBody& body, const Recording& recording,
   const Calibration& calibration, const Sample& sample, const SurfaceMap* map, bool isQuick)
 {
@@ -179,6 +189,9 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
   showMoment(view, other, around, moment);
   look(view, *renderer);
   view.setLook(figure.body);
+  Balls nodules(*renderer);
+  nodules.show(figure.body.isTranslucent ? ballsOf(moment.body.shownNodules())
+                                         : std::vector<Balls::Ball>{});
   moment.second != nullptr ? other.show(moment.sample, moment.second) : void();
   Realism realism(*renderer);
   if (figure.isRealistic)

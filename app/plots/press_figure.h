@@ -5,6 +5,7 @@
 #include "app/press/calibration.h"
 #include "app/press/recording.h"
 #include "haptics/servo/sample.h"
+#include "pipeline/figure/balls.h"
 #include "pipeline/figure/other_hand.h"
 #include "pipeline/figure/surroundings.h"
 #include "pipeline/model/overlay.h"
@@ -12,6 +13,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,9 @@ struct PressMoment
   const Sample* second = nullptr; ///< of another hand at that time; null: there is none
   vtkPolyData* drawn = nullptr;   ///< in the place of the body's surface; null: that one
 };
+
+/// As a translucent body shows them.
+[[nodiscard]] std::vector<Balls::Ball> ballsOf(std::span<const PlacedNodule> nodules);
 
 /// That of a sample in a recording: of several organs, the one that it tells of amid the others.
 /// @param isQuick  by the coarse level of each body that has one, but where a map is of all points

@@ -137,7 +137,8 @@ Plots extentComparison(const Calibration& calibration)
   return plots;
 }
 
-Plots sectionOf(vtkPalpDeformFilter& press, const Calibration& calibration)
+Plots sectionOf(vtkPalpDeformFilter& press, const Calibration& calibration,
+  std::span<const PlacedNodule> nodules)
 {
   Plots plots;
   const Contact& contact = press.GetPress().contact;
@@ -150,7 +151,8 @@ Plots sectionOf(vtkPalpDeformFilter& press, const Calibration& calibration)
     plots.push_back(sectionPlot(press, towards,
       calibration.elements && contact.depth <= calibration.elements->deepest()
         ? calibration.elements->at(contact.depth)
-        : std::nullopt));
+        : std::nullopt,
+      nodules));
   }
   return plots;
 }

@@ -36,8 +36,10 @@ using Plots = std::vector<std::unique_ptr<Plot>>; ///< one below the other
 
 /// The cut through the contact along the scene's x, or y where the surface faces x.
 ///
-/// @param press  up to date; nothing is drawn where it does not touch
-[[nodiscard]] Plots sectionOf(vtkPalpDeformFilter& press, const Calibration& calibration);
+/// @param press    up to date; nothing is drawn where it does not touch
+/// @param nodules  that may be seen
+[[nodiscard]] Plots sectionOf(vtkPalpDeformFilter& press, const Calibration& calibration,
+  std::span<const PlacedNodule> nodules);
 
 /// Writes what a window shows of plots, in the format that the file's name ends in: png, svg, pdf,
 /// or csv with all their curves.

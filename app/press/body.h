@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 #include <vtkSmartPointer.h>
@@ -35,6 +36,12 @@ struct SceneBody
   std::vector<std::string> notes;         ///< what was taken, and warnings; a line each
   std::optional<TrainingPlan> training{}; ///< by which its nodules were hidden; none: as in sources
   std::vector<SceneBody> organs{};        ///< each by itself, which alone are seen and felt then
+
+  /// Nodules that pictures may show: none while they are searched for.
+  [[nodiscard]] std::span<const PlacedNodule> shownNodules() const
+  {
+    return training ? std::span<const PlacedNodule>{} : nodules;
+  }
 
   /// One of the organs that are felt, or the only body.
   /// @param organ  as in a Sample of a scene of these organs

@@ -204,8 +204,14 @@ void Window::makePlots(bool shown)
     return forceComparison(
       organOf(recording.scene, organ), press, &organOf(session_.calibration(), organ));
   };
+  const auto section = [this]
+  {
+    const Pictured seen = pictured();
+    return sectionOf(view_.press(), calibrationShown(),
+      seen.body.felt(seen.recording.organs, shown_.organ).shownNodules());
+  };
   plots_ = new PlotPanel(
-    { { tr("Section"), [this] { return sectionOf(view_.press(), calibrationShown()); },
+    { { tr("Section"), section,
         tr("Nothing to show: press the surface and hold it"), true }, // also when it is lifted
       { tr("Forces"), forces },
       { tr("Extent"), [this] { return extentComparison(calibrationShown()); } },

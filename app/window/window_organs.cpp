@@ -46,17 +46,18 @@ void Window::showBody()
 void Window::showInside()
 {
   const SceneBody& body = session_.body();
-  const std::size_t nodules = body.training ? 0 : body.nodules.size();
+  const std::span<const PlacedNodule> nodules = body.shownNodules();
   const bool hasMap = body.stiffness ||
     std::ranges::any_of(body.organs, [](const SceneBody& one) { return bool(one.stiffness); });
   QStringList inside;
-  nodules > 0 ? void(inside << QString::fromStdString(counted(nodules, "nodule"))) : void();
+  !nodules.empty() ? void(inside << QString::fromStdString(counted(nodules.size(), "nodule")))
+                   : void();
   hasMap ? void(inside << tr("a map of stiffness")) : void();
   panel_->setInside(inside.join(", "));
   std::vector<Balls::Ball> balls = marked_;
-  for (std::size_t i = 0; i < nodules && marked_.empty() && view_.look().isTranslucent; ++i)
+  if (marked_.empty() && view_.look().isTranslucent)
   {
-    balls.push_back({ body.nodules[i].center, body.nodules[i].radius, appearance::kUnknown });
+    balls = ballsOf(nodules);
   }
   balls_.show(balls);
   isStale_ = true;

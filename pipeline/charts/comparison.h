@@ -2,6 +2,7 @@
 
 #include "calibration/tables/extent_table.h"
 #include "haptics/force/force_law.h"
+#include "haptics/force/nodules/nodule_field.h"
 #include "pipeline/charts/plot.h"
 #include "pipeline/deform/vtkPalpDeformFilter.h"
 #include "pipeline/model/reference_curve.h"
@@ -10,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -68,8 +70,10 @@ struct NamedLaw
 ///                  that is nearest to it
 /// @param elements  of the same tool and depth on a plane, if they are known; drawn below the
 ///                  surface at rest
+/// @param nodules   in the body; drawn where the cut meets them, as they lie at rest
 /// @source          Fig. 5
 [[nodiscard]] std::unique_ptr<Plot> sectionPlot(vtkPalpDeformFilter& press,
-  const Eigen::Vector3d& towards, const std::optional<SurfaceProfile>& elements = std::nullopt);
+  const Eigen::Vector3d& towards, const std::optional<SurfaceProfile>& elements = std::nullopt,
+  std::span<const PlacedNodule> nodules = {});
 
 } // namespace palp

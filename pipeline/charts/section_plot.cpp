@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -246,10 +247,34 @@ void addElements(Plot& plot, const SurfaceProfile& elements, const Line& rest)
   }
 }
 
+void addNodules(Plot& plot, const vtkPalpDeformFilter& press, const Frame& frame,
+  std::span<const PlacedNodule> nodules)
+{
+  std::string name = "nodule, at rest"; // once for all of them
+  for (const PlacedNodule& nodule : nodules)
+  {
+    const double off = (nodule.center - frame.center).dot(frame.up.cross(frame.along));
+    if (std::abs(off) < nodule.radius)
+    {
+      const double radius = std::sqrt(nodule.radius * nodule.radius - off * off);
+      const Eigen::Vector2d center = frame.inPlane(nodule.center);
+      Line circle;
+      for (int i = 0; i <= kSteps; ++i)
+      {
+        const double angle = 2.0 * std::numbers::pi * i / kSteps;
+        circle.add(
+          center.x() + radius * std::cos(angle), center.y() + radius * std::sin(angle));
+      }
+      circle = withBody(press, circle, frame);
+      plot.addLine(std::exchange(name, {}), circle.x, circle.y, appearance::curveColor(3));
+    }
+  }
+}
+
 } // namespace
 
 std::unique_ptr<Plot> sectionPlot(vtkPalpDeformFilter& press, const Eigen::Vector3d& towards,
-  const std::optional<SurfaceProfile>& elements)
+  const std::optional<SurfaceProfile>& elements, std::span<const PlacedNodule> nodules)
 {
   auto plot = std::make_unique<Plot>(
     "section through the contact", "distance from the contact [mm]", "height [mm]");
@@ -283,6 +308,7 @@ std::unique_ptr<Plot> sectionPlot(vtkPalpDeformFilter& press, const Eigen::Vecto
   {
     addElements(*plot, *elements, cut.rest);
   }
+  addNodules(*plot, press, frame, nodules);
   return plot;
 }
 

@@ -236,6 +236,29 @@ TEST(SectionPlot, RunsAroundTheRimOfALobe)
   EXPECT_LT(least, 0.0); // the lower side is in the cut, too
 }
 
+// 3 mm beside the middle of one of 5 mm: a circle of 4
+TEST_F(PlaneSection, HasNodulesThatTheCutMeets)
+{
+  const std::vector<PlacedNodule> nodules{
+    { .center = { 0.0, 8.0_mm, -12.0_mm }, .radius = 5.0_mm, .ratio = 10.0 },
+    { .center = { 5.0_mm, -3.0_mm, -12.0_mm }, .radius = 5.0_mm, .ratio = 10.0 },
+  };
+  const auto with = sectionPlot(*filter, Eigen::Vector3d(1.0, 0.05, 0.0), elements, nodules);
+  ASSERT_EQ(with->tables().size(), plot->tables().size() + 1);
+  vtkTable& circle = *with->tables().back();
+  EXPECT_STREQ(circle.GetColumnName(1), "nodule, at rest");
+  const auto along = column(circle, 0);
+  const auto up = column(circle, 1);
+  ASSERT_GT(along.size(), 50U);
+  double lowest = 0.0;
+  for (std::size_t i = 0; i < along.size(); ++i)
+  {
+    EXPECT_NEAR(std::hypot(along[i] - 5.0, up[i] + 12.0), 4.0, 1e-3);
+    lowest = std::min(lowest, up[i]);
+  }
+  EXPECT_NEAR(lowest, -16.0, 0.01);
+}
+
 class Files : public ::testing::Test
 {
 protected:
