@@ -327,7 +327,14 @@ void feelTissue(Scene& scene, const SceneBody& body)
   {
     return;
   }
-  scene.nodules = embedNodules(*body.haptic, law, body.nodules);
+  try
+  {
+    scene.nodules = embedNodules(*body.haptic, law, body.nodules);
+  }
+  catch (const Error& error)
+  {
+    throw Error(error.code(), body.name + ": " + error.what());
+  }
   if (body.stiffness)
   {
     LawSettings settings = own;

@@ -5,6 +5,7 @@
 #include "app/organs/organ_list.h"
 #include "app/panels/press_bar.h"
 #include "app/panels/press_list.h"
+#include "app/panels/tissue_map_dialog.h"
 #include "app/panels/tissue_panel.h"
 #include "app/plots/kept_presses.h"
 #include "app/press/press_fit.h"
@@ -110,6 +111,22 @@ void Window::makeEditMenu()
   redo->setShortcuts({ QKeySequence("Ctrl+Shift+Z"), QKeySequence("Ctrl+Y") });
   edit->addActions({ undo, redo });
   addMap(*edit);
+  edit
+    ->addAction(tr("&Young's modulus map…"), this,
+      [this]
+      {
+        std::vector<MeshSource> meshes = session_.body().sources;
+        const std::size_t first = organs_ && !session_.organs().empty() ? organs_->chosen() : 0;
+        const auto map = isFree() ? askTissueMap(this, meshes[first].stiffness) : std::nullopt;
+        if (map)
+        {
+          const auto end = session_.organs().empty() ? meshes.end() : meshes.begin() + first + 1;
+          std::for_each(meshes.begin() + first, end,
+            [&](MeshSource& mesh) { mesh.stiffness = *map; });
+          attempt([&] { openBody(meshes, session_.organs()); });
+        }
+      })
+    ->setObjectName("tissueMapAction");
   edit->addAction(tr("S&upports…"), this, [this] { showSupports(); })
     ->setObjectName("supportsAction");
   edit

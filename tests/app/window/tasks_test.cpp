@@ -18,6 +18,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 
 namespace palp
@@ -60,12 +61,12 @@ protected:
       QTest::keyClick(field, Qt::Key_A, Qt::ControlModifier);
     }
     ++actions_;
-    QTest::keyClicks(field, text);
+    text.isEmpty() ? QTest::keyClick(field, Qt::Key_Delete) : QTest::keyClicks(field, text);
     QTest::keyClick(field, Qt::Key_Return);
   }
 
-  // a key that opens a dialog, and lines for the fields of it, from the last to be answered on
-  void keyAndLines(Qt::Key code, Qt::KeyboardModifiers modifiers,
+  // lines for the fields of a dialog, from the last to be answered on
+  void answer(const std::function<void()>& open,
     const std::vector<std::pair<QString, QString>>& lines)
   {
     std::size_t next = 0;
@@ -92,8 +93,14 @@ protected:
         }
       });
     typist.start(200);
-    key(code, modifiers);
+    open();
     EXPECT_TRUE(QTest::qWaitFor([&] { return next == lines.size(); }, kPatience));
+  }
+
+  void keyAndLines(Qt::Key code, Qt::KeyboardModifiers modifiers,
+    const std::vector<std::pair<QString, QString>>& lines)
+  {
+    answer([&] { key(code, modifiers); }, lines);
   }
 
   // at a place, as deep as the line says
@@ -215,6 +222,22 @@ TEST_F(Tasks, ThreeToolsAreComparedInOnePlot)
   const double modulus = 50e3 / (1.0 - 0.33 * 0.33);
   EXPECT_NEAR(force(1), 2.0 / M_PI * modulus * 25e-6, 0.02);
   EXPECT_NEAR(force(2), 2.0 * modulus * 25e-6, 0.05);
+}
+
+// of the same everywhere, a fifth of what the panel says
+TEST_F(Tasks, AMapOfTheModulusIsTyped)
+{
+  launch(ownSurface());
+  pressThere("0, 0, 50, 5 mm");
+  again("By the corrected law", 2);
+  auto* action = window_->findChild<QAction*>("tissueMapAction");
+  answer([action] { action->trigger(); }, { { "", "formula:10+yes" }, { "", "formula:10" } });
+  EXPECT_TRUE(QTest::qWaitFor([&] { return bool(session_->body().stiffness); }, kPatience));
+  line(window_->findChild<QLineEdit*>("pressPlace"), "0, 0, 50, 5 mm");
+  waitForPresses(3);
+  EXPECT_NEAR(force(2), 0.2 * force(1), 0.002 * force(1));
+  answer([action] { action->trigger(); }, { { "", "" } });
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !session_->body().stiffness; }, kPatience));
 }
 
 // two balls with labels of their own, the second off the middle
