@@ -190,8 +190,8 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
   look(view, *renderer);
   view.setLook(figure.body);
   Balls nodules(*renderer);
-  nodules.show(figure.body.isTranslucent ? ballsOf(moment.body.shownNodules())
-                                         : std::vector<Balls::Ball>{});
+  nodules.show(
+    figure.body.isTranslucent ? ballsOf(moment.body.shownNodules()) : std::vector<Balls::Ball>{});
   moment.second != nullptr ? other.show(moment.sample, moment.second) : void();
   Realism realism(*renderer);
   if (figure.isRealistic)

@@ -137,8 +137,8 @@ Plots extentComparison(const Calibration& calibration)
   return plots;
 }
 
-Plots sectionOf(vtkPalpDeformFilter& press, const Calibration& calibration,
-  std::span<const PlacedNodule> nodules)
+Plots sectionOf(
+  vtkPalpDeformFilter& press, const Calibration& calibration, std::span<const PlacedNodule> nodules)
 {
   Plots plots;
   const Contact& contact = press.GetPress().contact;

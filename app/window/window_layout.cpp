@@ -210,9 +210,9 @@ void Window::makePlots(bool shown)
     return sectionOf(view_.press(), calibrationShown(),
       seen.body.felt(seen.recording.organs, shown_.organ).shownNodules());
   };
-  plots_ = new PlotPanel(
-    { { tr("Section"), section,
-        tr("Nothing to show: press the surface and hold it"), true }, // also when it is lifted
+  plots_ =
+    new PlotPanel({ { tr("Section"), section, tr("Nothing to show: press the surface and hold it"),
+                      true }, // also when it is lifted
       { tr("Forces"), forces },
       { tr("Extent"), [this] { return extentComparison(calibrationShown()); } },
       { tr("Presses"), [this] { return pressForces(pressList_->ticked()); },

@@ -3,9 +3,9 @@
 #include "app/input/law_options.h"
 #include "app/input/tip_text.h"
 #include "app/organs/organ_list.h"
+#include "app/organs/tissue_map_dialog.h"
 #include "app/panels/press_bar.h"
 #include "app/panels/press_list.h"
-#include "app/panels/tissue_map_dialog.h"
 #include "app/panels/tissue_panel.h"
 #include "app/plots/kept_presses.h"
 #include "app/press/press_fit.h"
@@ -121,8 +121,8 @@ void Window::makeEditMenu()
         if (map)
         {
           const auto end = session_.organs().empty() ? meshes.end() : meshes.begin() + first + 1;
-          std::for_each(meshes.begin() + first, end,
-            [&](MeshSource& mesh) { mesh.stiffness = *map; });
+          std::for_each(
+            meshes.begin() + first, end, [&](MeshSource& mesh) { mesh.stiffness = *map; });
           attempt([&] { openBody(meshes, session_.organs()); });
         }
       })

@@ -1,7 +1,8 @@
 #include "calibration/organ/organ_model.h"
 
-#include "calibration/organ/cube_stiffness.h"
-#include "calibration/organ/cut_grid.h"
+#include "calibration/organ/cubes/cube_nodes.h"
+#include "calibration/organ/cubes/cube_stiffness.h"
+#include "calibration/organ/cubes/cut_grid.h"
 #include "calibration/organ/shared_cholesky.h"
 #include "calibration/organ/support_grip.h"
 #include "calibration/organ/surface_parts.h"
@@ -20,14 +21,9 @@ namespace
 {
 
 using Sparse = SharedCholesky::Sparse;
-using Nodes = std::array<int, kCubeCorners>;
+using Nodes = CubeNodes::Corners;
 
 constexpr double kLeast = 0.03; // filled part of a cube that counts
-
-Cube cornerOf(const Cube& cube, int corner)
-{
-  return { cube[0] + (corner & 1), cube[1] + ((corner >> 1) & 1), cube[2] + ((corner >> 2) & 1) };
-}
 
 } // namespace
 
@@ -37,69 +33,22 @@ struct OrganModel::State
   double young;
   double poisson;
   ModulusRatio ratio;
-  std::vector<int> number{};             // of each corner of the grid; -1: of no cube that counts
-  std::vector<Eigen::Vector3d> places{}; // of the nodes
-  std::vector<Nodes> cubes{};
-  std::vector<Cube> cells{}; // of the grid, each of these
-  double leftOut = 0.0;      // of the volume, what no cubes join to these
+  CubeNodes nodes;
+  CubeModuli moduli;
   std::vector<SupportGrip> grips{};
-  CubeModuli moduli{};
   Sparse even{};   // lower half, of the cubes if they were, where they are not
   Sparse varied{}; // the same as they are
   SharedCholesky cholesky{};
 
-  [[nodiscard]] std::size_t cornerIndex(const Cube& c) const
+  State(const Surface& surface, double side, double youngModulus, double poissonRatio,
+    const ModulusRatio& variation)
+    : grid(surface, side)
+    , young(youngModulus)
+    , poisson(poissonRatio)
+    , ratio(variation)
+    , nodes(grid, kLeast)
+    , moduli(ratio ? CubeModuli(grid, nodes.cells(), ratio) : CubeModuli())
   {
-    const auto& size = grid.size();
-    return (at(c[2]) * at(size[1] + 1) + at(c[1])) * at(size[0] + 1) + at(c[0]);
-  }
-
-  // whether a cube within the grid is one of those that hang together
-  [[nodiscard]] bool counts(const Cube& cube) const
-  {
-    int corner = 0;
-    while (corner < kCubeCorners && number[cornerIndex(cornerOf(cube, corner))] >= 0)
-    {
-      ++corner;
-    }
-    return corner == kCubeCorners;
-  }
-
-  void addCubes()
-  {
-    const auto& [nx, ny, nz] = grid.size();
-    number.assign(at(nx + 1) * at(ny + 1) * at(nz + 1), -1);
-    cells = grid.largestPiece(kLeast);
-    moduli = ratio ? CubeModuli(grid, cells, ratio) : CubeModuli();
-    for (const Cube& cube : cells)
-    {
-      Nodes nodes{};
-      for (int corner = 0; corner < kCubeCorners; ++corner)
-      {
-        const Cube place = cornerOf(cube, corner);
-        int& known = number[cornerIndex(place)];
-        if (known < 0)
-        {
-          known = static_cast<int>(places.size());
-          places.push_back(grid.cornerOf(place));
-        }
-        nodes[at(corner)] = known;
-      }
-      cubes.push_back(nodes);
-    }
-    double all = 0.0;
-    double joined = 0.0;
-    grid.forEach(grid.low(), grid.low() + grid.side() * Eigen::Vector3d(nx, ny, nz),
-      [&](const Cube& cube)
-      {
-        const double filled = grid.filled(cube);
-        all += filled >= kLeast ? filled : 0.0;
-      });
-    for (const Cube& cube : cells)
-    {
-      joined += grid.filled(cube);
-    }
-    leftOut = 1.0 - joined / all;
   }
 
   void hold(const OrganModel& model, const Surface& surface, std::span<const Support> supports)
@@ -146,12 +95,13 @@ struct OrganModel::State
   {
     const CubeStiffness whole = cubeStiffness(grid.side(), young, poisson);
     std::vector<Eigen::Triplet<double>> all;
-    all.reserve(cubes.size() * 300);
-    for (std::size_t cube = 0; cube < cubes.size(); ++cube)
+    const std::vector<Cube>& cells = nodes.cells();
+    all.reserve(cells.size() * 300);
+    for (std::size_t cube = 0; cube < cells.size(); ++cube)
     {
       const double part = times.empty() ? 1.0 : times[cube];
       const CubePoints& inside = grid.inside(cells[cube]);
-      add(all, cubes[cube],
+      add(all, nodes.corners()[cube],
         CubeStiffness(
           part * (inside.all() ? whole : cutCubeStiffness(grid.side(), young, poisson, inside))));
     }
@@ -175,7 +125,7 @@ struct OrganModel::State
 
   [[nodiscard]] Sparse fromTriplets(const std::vector<Eigen::Triplet<double>>& all) const
   {
-    const auto count = static_cast<Eigen::Index>(3 * places.size());
+    const auto count = static_cast<Eigen::Index>(3 * nodes.places().size());
     Sparse matrix(count, count); // its lower half
     matrix.setFromTriplets(all.begin(), all.end());
     return matrix;
@@ -207,14 +157,13 @@ struct OrganModel::State
 
 OrganModel::OrganModel(const Surface& surface, double side, double youngModulus,
   double poissonRatio, std::span<const Support> supports, const ModulusRatio& ratio)
-  : state_(new State{ CutGrid(surface, side), youngModulus, poissonRatio, ratio })
+  : state_(new State(surface, side, youngModulus, poissonRatio, ratio))
 {
-  state_->addCubes();
-  if (state_->places.empty())
+  if (state_->nodes.places().empty())
   {
     throw Error(ErrorCode::BadValue, "no cell is filled by the body; give smaller ones");
   }
-  SharedCholesky::checkMemory(state_->places.size());
+  SharedCholesky::checkMemory(state_->nodes.places().size());
   state_->hold(*this, surface, supports);
   state_->factorize();
 }
@@ -225,12 +174,12 @@ OrganModel& OrganModel::operator=(OrganModel&&) noexcept = default;
 
 int OrganModel::nodes() const noexcept
 {
-  return static_cast<int>(state_->places.size());
+  return static_cast<int>(state_->nodes.places().size());
 }
 
 double OrganModel::leftOut() const noexcept
 {
-  return state_->leftOut;
+  return state_->nodes.leftOut();
 }
 
 double OrganModel::side() const noexcept
@@ -263,8 +212,8 @@ bool OrganModel::weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& 
   {
     const Eigen::Vector3d from = place - outward * (0.25 * step + 1e-7) * side;
     const Cube cube = state.grid.cubeAt(from);
-    // a corner, or an edge, of a cube that does not count may be one of a cube that does
-    if (!(state.grid.filled(cube) >= filled) || !state.counts(cube))
+    const Nodes* nodes = state.nodes.of(cube);
+    if (nodes == nullptr || !(state.grid.filled(cube) >= filled))
     {
       continue;
     }
@@ -276,9 +225,9 @@ bool OrganModel::weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& 
       {
         value *= ((corner >> axis) & 1) != 0 ? within[axis] : 1.0 - within[axis];
       }
-      weights.nodes[at(corner)] = state.number[state.cornerIndex(cornerOf(cube, corner))];
       weights.values[at(corner)] = value;
     }
+    weights.nodes = *nodes;
     return true;
   }
   return false;
@@ -328,9 +277,9 @@ void OrganModel::varyLoad(
     return;
   }
   Eigen::VectorXd moved(forces.size());
-  for (std::size_t i = 0; i < state.places.size(); ++i)
+  for (std::size_t i = 0; i < state.nodes.places().size(); ++i)
   {
-    moved.segment<3>(3 * static_cast<Eigen::Index>(i)) = field(state.places[i]);
+    moved.segment<3>(3 * static_cast<Eigen::Index>(i)) = field(state.nodes.places()[i]);
   }
   const Eigen::VectorXd even = state.even.selfadjointView<Eigen::Lower>() * moved;
   const Eigen::VectorXd varied = state.varied.selfadjointView<Eigen::Lower>() * moved;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calibration/organ/cube_moduli.h"
+#include "calibration/organ/cubes/cube_moduli.h"
 #include "calibration/organ/node_weights.h"
 #include "haptics/surface/surface.h"
 

@@ -262,8 +262,7 @@ void addNodules(Plot& plot, const vtkPalpDeformFilter& press, const Frame& frame
       for (int i = 0; i <= kSteps; ++i)
       {
         const double angle = 2.0 * std::numbers::pi * i / kSteps;
-        circle.add(
-          center.x() + radius * std::cos(angle), center.y() + radius * std::sin(angle));
+        circle.add(center.x() + radius * std::cos(angle), center.y() + radius * std::sin(angle));
       }
       circle = withBody(press, circle, frame);
       plot.addLine(std::exchange(name, {}), circle.x, circle.y, appearance::curveColor(3));

@@ -66,8 +66,8 @@ protected:
   }
 
   // lines for the fields of a dialog, from the last to be answered on
-  void answer(const std::function<void()>& open,
-    const std::vector<std::pair<QString, QString>>& lines)
+  void answer(
+    const std::function<void()>& open, const std::vector<std::pair<QString, QString>>& lines)
   {
     std::size_t next = 0;
     QTimer typist;

@@ -1,4 +1,4 @@
-#include "calibration/organ/cut_grid.h"
+#include "calibration/organ/cubes/cut_grid.h"
 #include "data/shapes.h"
 #include "haptics/units.h"
 

@@ -1,5 +1,5 @@
-#include "calibration/organ/cube_stiffness.h"
-#include "calibration/organ/cut_grid.h"
+#include "calibration/organ/cubes/cube_stiffness.h"
+#include "calibration/organ/cubes/cut_grid.h"
 #include "calibration/organ/organ_compliance.h"
 #include "calibration/organ/organ_places.h"
 

@@ -1,6 +1,6 @@
-#include "calibration/organ/cube_moduli.h"
+#include "calibration/organ/cubes/cube_moduli.h"
 
-#include "calibration/organ/cube_stiffness.h"
+#include "calibration/organ/cubes/cube_stiffness.h"
 
 #include <algorithm>
 #include <cmath>

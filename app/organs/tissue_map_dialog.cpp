@@ -1,4 +1,4 @@
-#include "app/panels/tissue_map_dialog.h"
+#include "app/organs/tissue_map_dialog.h"
 
 #include "app/stiffness/stiffness_text.h"
 #include "haptics/error.h"
@@ -10,14 +10,14 @@ namespace palp
 
 std::optional<StiffnessSource> askTissueMap(QWidget* parent, const StiffnessSource& now)
 {
-  const QString forms = QObject::tr(
-    "Young's modulus over the body, which the corrected law feels:\n\n"
-    "labels:FILE:1=healthy_liver,2=40kPa\tregions of a label map\n"
-    "image:FILE\tvalues of an image, in kPa\n"
-    "array:FILE:NAME\tan array of a surface, in kPa\n"
-    "formula:6+0.1*z\tin kPa, of x, y, z in mm\n"
-    "random:0.3:8mm:7\trelative spread, length, seed\n\n"
-    "Empty: the same everywhere.");
+  const QString forms =
+    QObject::tr("Young's modulus over the body, which the corrected law feels:\n\n"
+                "labels:FILE:1=healthy_liver,2=40kPa\tregions of a label map\n"
+                "image:FILE\tvalues of an image, in kPa\n"
+                "array:FILE:NAME\tan array of a surface, in kPa\n"
+                "formula:6+0.1*z\tin kPa, of x, y, z in mm\n"
+                "random:0.3:8mm:7\trelative spread, length, seed\n\n"
+                "Empty: the same everywhere.");
   QInputDialog dialog(parent);
   dialog.setObjectName("tissueMapDialog");
   dialog.setWindowTitle(QObject::tr("Young's modulus map"));

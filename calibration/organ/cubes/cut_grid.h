@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calibration/organ/cube_stiffness.h"
+#include "calibration/organ/cubes/cube_stiffness.h"
 #include "haptics/surface/surface.h"
 
 #include <algorithm>
@@ -44,10 +44,6 @@ public:
   {
     return inside(cube).filled();
   }
-
-  /// The cubes that hang together by their faces, most of them.
-  /// @param least  part of one that has to be inside the body, for it to count
-  [[nodiscard]] std::vector<Cube> largestPiece(double least) const;
 
   /// In which cube a place is [m]; it may be outside the grid.
   [[nodiscard]] Cube cubeAt(const Eigen::Vector3d& place) const noexcept

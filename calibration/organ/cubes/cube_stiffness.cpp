@@ -1,4 +1,4 @@
-#include "calibration/organ/cube_stiffness.h"
+#include "calibration/organ/cubes/cube_stiffness.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calibration/organ/cut_grid.h"
+#include "calibration/organ/cubes/cut_grid.h"
 
 #include <Eigen/Core>
 #include <functional>

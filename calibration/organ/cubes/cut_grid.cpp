@@ -1,4 +1,4 @@
-#include "calibration/organ/cut_grid.h"
+#include "calibration/organ/cubes/cut_grid.h"
 
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -254,48 +254,6 @@ const CubePoints& CutGrid::inside(const Cube& cube) const noexcept
   }
   const int kind = kinds_[indexOf(cube)];
   return kind == kEmpty ? empty : kind == kWhole ? whole : cut_[at(kind)];
-}
-
-std::vector<Cube> CutGrid::largestPiece(double least) const
-{
-  const auto& [nx, ny, nz] = size_;
-  std::vector<bool> met(at(nx) * at(ny) * at(nz));
-  std::vector<Cube> largest;
-  for (int k = 0; k < nz; ++k)
-  {
-    for (int j = 0; j < ny; ++j)
-    {
-      for (int i = 0; i < nx; ++i)
-      {
-        std::vector<Cube> piece;
-        const auto visit = [&](const Cube& cube)
-        {
-          if (filled(cube) >= least && !met[indexOf(cube)])
-          {
-            met[indexOf(cube)] = true;
-            piece.push_back(cube);
-          }
-        };
-        visit({ i, j, k });
-        std::size_t next = 0;
-        while (next < piece.size())
-        {
-          const Cube cube = piece[next++];
-          for (std::size_t axis = 0; axis < 3; ++axis)
-          {
-            for (const int step : { -1, 1 })
-            {
-              Cube beside = cube;
-              beside[axis] += step;
-              visit(beside);
-            }
-          }
-        }
-        piece.size() > largest.size() ? largest.swap(piece) : void();
-      }
-    }
-  }
-  return largest;
 }
 
 void CutGrid::fill(const Surface& surface)
