@@ -29,7 +29,8 @@ TissueMap tissueMapOf(
   }
   catch (const Error& error)
   {
-    throw Error(error.code(), std::string("stiffness: ") + error.what());
+    const std::string what = error.what();
+    throw Error(error.code(), (what.starts_with("stiffness: ") ? "" : "stiffness: ") + what);
   }
   return {};
 }

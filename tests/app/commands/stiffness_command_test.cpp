@@ -189,6 +189,7 @@ TEST_F(StiffnessFiles, RefusesInASentence)
     EXPECT_EQ(refused.code, 2) << one.stiffness;
     EXPECT_NE(refused.err.find(one.says), std::string::npos) << one.stiffness << refused.err;
     EXPECT_NE(refused.err.find("stiffness"), std::string::npos) << refused.err;
+    EXPECT_EQ(refused.err.find("stiffness: stiffness"), std::string::npos) << refused.err;
     EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
   }
   const Finished elsewhere = pressed("labels:" + labels(400.0) + ":1=50kPa,2=150kPa");
