@@ -156,7 +156,7 @@ TEST_F(SceneCommand, FeelsANoduleInTheBody)
   const Finished outside =
     press(R"({"center": ["0mm", "0mm", "10mm"], "radius": "5mm", "ratio": 5})");
   EXPECT_EQ(outside.code, 2);
-  EXPECT_NE(outside.err.find("liver.vtp: nodules/0"), std::string::npos) << outside.err;
+  EXPECT_NE(outside.err.find("block_50.vtp: nodules/0"), std::string::npos) << outside.err;
 }
 
 TEST_F(SceneCommand, SpeaksInItsOwnWordsAlone)
