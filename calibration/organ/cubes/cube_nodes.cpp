@@ -44,9 +44,9 @@ bool isJoined(const CutGrid& grid, Cube cube, std::size_t axis)
 } // namespace
 
 CubeNodes::CubeNodes(const CutGrid& grid, double least)
-  : size_(grid.size())
+  : grid_(grid)
 {
-  findCells(grid, least);
+  findCells(least);
   Corners none;
   none.fill(kNone);
   corners_.assign(cells_.size(), none);
@@ -54,7 +54,7 @@ CubeNodes::CubeNodes(const CutGrid& grid, double least)
   {
     for (int corner = 0; corner < kCubeCorners; ++corner)
     {
-      corners_[cell][at(corner)] == kNone ? spreadNode(grid, cells_[cell], corner) : void();
+      corners_[cell][at(corner)] == kNone ? spreadNode(cells_[cell], corner) : void();
     }
   }
 }
@@ -67,21 +67,13 @@ const CubeNodes::Corners* CubeNodes::of(const Cube& cube) const noexcept
 
 int CubeNodes::numberOf(const Cube& cube) const noexcept
 {
-  std::size_t index = 0;
-  for (std::size_t axis = 3; axis-- > 0;)
-  {
-    if (cube[axis] < 0 || cube[axis] >= size_[axis])
-    {
-      return kNone;
-    }
-    index = index * at(size_[axis]) + at(cube[axis]);
-  }
-  return numbers_[index];
+  return grid_.contains(cube) ? numbers_[grid_.indexOf(cube)] : kNone;
 }
 
-void CubeNodes::findCells(const CutGrid& grid, double least)
+void CubeNodes::findCells(double least)
 {
-  const std::size_t count = at(size_[0]) * at(size_[1]) * at(size_[2]);
+  const auto& [nx, ny, nz] = grid_.size();
+  const std::size_t count = at(nx) * at(ny) * at(nz);
   std::vector<bool> met(count);
   double all = 0.0;
   double joined = 0.0;
@@ -91,10 +83,10 @@ void CubeNodes::findCells(const CutGrid& grid, double least)
     double filled = 0.0;
     const auto visit = [&](const Cube& cube)
     {
-      if (grid.filled(cube) >= least && !met[grid.indexOf(cube)])
+      if (grid_.filled(cube) >= least && !met[grid_.indexOf(cube)])
       {
-        met[grid.indexOf(cube)] = true;
-        filled += grid.filled(cube);
+        met[grid_.indexOf(cube)] = true;
+        filled += grid_.filled(cube);
         piece.push_back(cube);
       }
     };
@@ -108,30 +100,29 @@ void CubeNodes::findCells(const CutGrid& grid, double least)
         --before[axis];
         Cube behind = cube;
         ++behind[axis];
-        isJoined(grid, before, axis) ? visit(before) : void();
-        isJoined(grid, cube, axis) ? visit(behind) : void();
+        isJoined(grid_, before, axis) ? visit(before) : void();
+        isJoined(grid_, cube, axis) ? visit(behind) : void();
       }
     }
     all += filled;
     joined = piece.size() > cells_.size() ? filled : joined;
     piece.size() > cells_.size() ? cells_.swap(piece) : void();
   };
-  grid.forEach(
-    grid.low(), grid.low() + grid.side() * Eigen::Vector3d(size_[0], size_[1], size_[2]), fill);
+  grid_.forEach(grid_.low(), grid_.low() + grid_.side() * Eigen::Vector3d(nx, ny, nz), fill);
   leftOut_ = cells_.empty() ? 0.0 : 1.0 - joined / all;
   numbers_.assign(count, kNone);
   for (std::size_t cell = 0; cell < cells_.size(); ++cell)
   {
-    numbers_[grid.indexOf(cells_[cell])] = static_cast<int>(cell);
+    numbers_[grid_.indexOf(cells_[cell])] = static_cast<int>(cell);
   }
 }
 
 // to all of the eight cubes around that corner that the body goes through to, also by those that
 // hold too little of it to count
-void CubeNodes::spreadNode(const CutGrid& grid, const Cube& cell, int corner)
+void CubeNodes::spreadNode(const Cube& cell, int corner)
 {
   const int node = static_cast<int>(places_.size());
-  places_.push_back(grid.cornerOf(cornerOf(cell, corner)));
+  places_.push_back(grid_.cornerOf(cornerOf(cell, corner)));
   const auto cubeAround = [&](int seen) // whose corner of that number it is
   {
     Cube cube = cell;
@@ -154,7 +145,7 @@ void CubeNodes::spreadNode(const CutGrid& grid, const Cube& cell, int corner)
     {
       const int other = seen ^ (1 << axis);
       // the cube that comes first along the axis has the corner at its far end
-      if (!met[at(other)] && isJoined(grid, cubeAround(seen | (1 << axis)), axis))
+      if (!met[at(other)] && isJoined(grid_, cubeAround(seen | (1 << axis)), axis))
       {
         met[at(other)] = true;
         reached.push_back(other);

@@ -18,6 +18,7 @@ class CubeNodes
 public:
   using Corners = std::array<int, kCubeCorners>; ///< node at each corner of a cube
 
+  /// @param grid   which has to outlive this
   /// @param least  part of a cube that has to be inside the body, for it to count
   CubeNodes(const CutGrid& grid, double least);
 
@@ -49,10 +50,10 @@ public:
 
 private:
   [[nodiscard]] int numberOf(const Cube& cube) const noexcept; // among the cells
-  void findCells(const CutGrid& grid, double least);
-  void spreadNode(const CutGrid& grid, const Cube& cell, int corner);
+  void findCells(double least);
+  void spreadNode(const Cube& cell, int corner);
 
-  Cube size_; // of the grid
+  const CutGrid& grid_;
   std::vector<Cube> cells_;
   std::vector<int> numbers_; // of each cube of the grid among the cells; -1: of none
   std::vector<Corners> corners_;

@@ -245,14 +245,7 @@ const CubePoints& CutGrid::inside(const Cube& cube) const noexcept
 {
   static const CubePoints empty;
   static const CubePoints whole = wholeCube();
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    if (cube[k] < 0 || cube[k] >= size_[k])
-    {
-      return empty;
-    }
-  }
-  const int kind = kinds_[indexOf(cube)];
+  const int kind = contains(cube) ? kinds_[indexOf(cube)] : kEmpty;
   return kind == kEmpty ? empty : kind == kWhole ? whole : cut_[at(kind)];
 }
 

@@ -36,6 +36,12 @@ public:
     return low_;
   }
 
+  [[nodiscard]] bool contains(const Cube& cube) const noexcept
+  {
+    return std::min({ cube[0], cube[1], cube[2] }) >= 0 && cube[0] < size_[0] &&
+      cube[1] < size_[1] && cube[2] < size_[2];
+  }
+
   /// What of a cube is inside the body; nothing outside the grid.
   [[nodiscard]] const CubePoints& inside(const Cube& cube) const noexcept;
 

@@ -106,7 +106,7 @@ public:
     const std::array<BodyCompliance, 3>& aside, double step, double force) const noexcept;
 
 private:
-  static constexpr int kMostSteps = 8;   // three are usual
+  static constexpr int kMostSteps = 8;   // one or two are usual
   static constexpr double kLeast = 0.25; // of the slope of the depth by the local depth
   static constexpr double kNear =
     1e-6; // of the depth's cube: steps to where the force errs by 1e-7
