@@ -14,6 +14,7 @@ constexpr double kReach = 2.3; // spacings
 // contact is as wide as it is far, and 1/D of its center too much
 constexpr double kNearest = 0.6;
 constexpr float kClose = 1.5F;  // spacings to an edge, within which W/D changes from place to place
+constexpr double kOver = 0.25;  // spacings over the faces, from which on a spot is in a hollow
 constexpr float kFacing = 0.7F; // cosine of normals from which on a place counts in full
 constexpr float kAskew = 0.1F;  // likewise, to which it is beyond an edge and does not count
 
@@ -225,6 +226,7 @@ ComplianceField::Blend<kSpots> ComplianceField::blendAt(
         sums.template bottomRows<3>().matrix() += place.normal * weight.matrix();
         sums.row(kBend) += weight * place.bend;
         sums.row(kDoubtful) += weight * place.doubtful;
+        sums.row(kAbove) += weight * along(place.normal, away);
         if (place.beside > 0.0F)
         {
           sums.row(kPart) += weight;
@@ -247,14 +249,17 @@ ComplianceField::Blend<kSpots> ComplianceField::blendAt(
   return sums.rowwise() / all;
 }
 
-// over an edge the normal leans from that of the face, whose foot is elsewhere
+// over an edge the normal leans from that of the face, whose foot is elsewhere; where two faces
+// meet in a hollow, both are pressed, and the foot would leap from one to the other
 template <int kSpots>
 ComplianceField::Rows<3, kSpots> ComplianceField::toFace(
   const Around<kSpots>& spots, const Blend<kSpots>& told) const noexcept
 {
   const auto faces = told.template bottomRows<3>();
+  const auto over = static_cast<float>(kOver * cell_);
+  const Lanes<kSpots> flat = (1.0F - told.row(kAbove) / over).max(0.0F).min(1.0F);
   const Rows<3, kSpots> leaning = (spots.normals - faces.rowwise() / lengthsOf(faces)).rowwise() *
-    (told.row(kPart) * spots.heights);
+    (flat * flat * (3.0F - 2.0F * flat) * told.row(kPart) * spots.heights);
   // beyond an edge no further than places reach
   const auto most = static_cast<float>(cell_);
   return leaning.rowwise() / (1.0F + (lengthsOf(leaning) / most).square()).sqrt();

@@ -135,6 +135,7 @@ private:
     kBeside,   // D times the part of places beside an edge
     kDoubtful, // part of places that may not be believed
     kPart,     // of places beside an edge
+    kAbove,    // mean height of the spot over their planes [m]
     kOutward,  // mean of their normals, x, y, z
     kTold = kOutward + 3
   };

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
 #include <span>
 #include <vector>
@@ -157,7 +158,6 @@ TEST_P(ComplianceFieldAtARim, TellsFourAsOneByOne)
     });
 }
 
-// one of four may be within reach of a place and the next not
 // Of a quarter space the constant is W/D, wherever along its edge and however its places lie: those
 // next to the edge, too, which tell of a hundred times more.
 TEST(ComplianceField, AlongAStraightEdgeIsTheSame)
@@ -201,6 +201,40 @@ TEST(ComplianceField, AlongAStraightEdgeIsTheSame)
   }
 }
 
+// Where a floor meets a wall, a ball that touches both is between what the two tell, and comes from
+// one to the other as gradually as its normal turns: there is no foot on one of them to go to.
+TEST(ComplianceField, ChangesGraduallyFromFloorToWall)
+{
+  constexpr double kFloor = -27.0; // [1/m]
+  constexpr double kWall = 35.0;
+  const Vector3d wall = -Vector3d::UnitX();
+  std::vector<PlacedCompliance> places;
+  for (double y = -24.0_mm; y <= 24.0_mm; y += kSpacing)
+  {
+    for (double off = 0.5 * kSpacing; off < 24.0_mm; off += kSpacing)
+    {
+      places.push_back(
+        { { -off, y, 0.0 }, Vector3d::UnitZ(), kFloor, { -150.0, 0.0, 0.0 }, 8e4, 35.0 });
+      places.push_back({ { 0.0, y, off }, wall, kWall, { 0.0, 0.0, 4000.0 }, 8e4, 35.0 });
+    }
+  }
+  const ComplianceField field(places, kSpacing, 0.45);
+  for (const double height : { 6.0_mm, 7.5_mm, 9.0_mm, 15.0_mm })
+  {
+    const Vector3d ball(-height, 0.0, height);
+    double before = kFloor;
+    for (double turn = 0.0; turn <= 0.5 * std::numbers::pi; turn += 0.01)
+    {
+      const Vector3d normal = std::sin(turn) * wall + std::cos(turn) * Vector3d::UnitZ();
+      const double told = field.at(ball - height * normal, normal, height).body.constant;
+      EXPECT_NEAR(told, before, 0.04 * (kWall - kFloor)) << height << ' ' << turn;
+      before = told;
+    }
+    EXPECT_NEAR(before, kWall, 0.1 * (kWall - kFloor)) << height;
+  }
+}
+
+// one of four may be within reach of a place and the next not
 TEST(ComplianceField, EndsWithoutALeapToNoNumber)
 {
   const PlacedCompliance place{ .position = Vector3d::Zero(), .constant = 100.0 };
