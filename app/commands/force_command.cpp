@@ -22,6 +22,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace palp
 {
@@ -45,14 +47,7 @@ struct ForceOptions
 // which factors act, for people, on standard error
 void tellFactors(const ForceLaw& law, const ContactGeometry& deepest)
 {
-  std::string acting;
-  for (const Factor& factor : law.factors(deepest))
-  {
-    if (const double value = std::round(factor.value * 1e4) / 1e4; value != 1.0)
-    {
-      acting += (acting.empty() ? "" : ", ") + std::string(factor.name) + " x" + shortest(value);
-    }
-  }
+  const std::string acting = actingFactors(law, deepest);
   std::cerr << "palp: factors at the largest depth: " << (acting.empty() ? "none acts" : acting)
             << '\n';
   if (law.settings().mode == LawMode::Corrected &&
@@ -290,14 +285,25 @@ void printHistory(const ForceOptions& options)
   tellLimits(pressed.law, pressed.rules(geometry), geometry, options.geometry.given);
 }
 
+// what does not go with the law, or needs more, all at once
+void checkGiven(const ForceOptions& options)
+{
+  const std::string history = "--history FILE.csv with columns time_s and depth_mm";
+  const bool isTimeless = options.history.empty() && !options.tissue.options.relaxation.empty();
+  std::vector<std::string> others(options.nodules.nodules.empty() ? 0 : 1, "--nodule");
+  others.insert(others.end(), options.stiffness.isGiven() ? 1 : 0, "--stiffness");
+  options.tissue.options.checkTaken(
+    others, isTimeless ? " and, to relax over time, " + history : "");
+  if (isTimeless)
+  {
+    throw Error(
+      ErrorCode::BadValue, "--relaxation: acts over time; add " + history + ", or leave it out");
+  }
+}
+
 void force(const ForceOptions& options, Work work)
 {
-  if (options.history.empty() && !options.tissue.options.relaxation.empty())
-  {
-    throw Error(ErrorCode::BadValue,
-      "--relaxation: acts over time; add --history FILE.csv with columns time_s and depth_mm, or "
-      "leave it out");
-  }
+  checkGiven(options);
   if (work == Work::Check)
   {
     return (void)pressedBy(options, options.depths.si.back());

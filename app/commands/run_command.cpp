@@ -278,8 +278,8 @@ void addRunCommand(CLI::App& app, const Renderer* pictures, Work work)
     {
       if (work == Work::Check)
       {
-        (void)options->press.tissue.law();
         (void)planOf(*options);
+        (void)options->press.tissue.law();
         return;
       }
       if (isExport(options->mesh.file))

@@ -154,9 +154,9 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
       }
       // a wrong value is told before a missing display
       checkButtons(options->plan);
+      checkMap(options->plan.meshes.front(), options->plan.press.tissue.options);
       (void)options->plan.press.tissue.law();
       checkExists(options->plan.meshes.front());
-      checkMap(options->plan.meshes.front(), options->plan.press.tissue.options);
       if (!view)
       {
         execProgram("palp-view");

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace palp
 {
@@ -47,14 +48,27 @@ LargeStrainTable shippedTable(LawMode mode)
   }
 }
 
-// what only the corrected law takes
-void refuseUnless(bool absent, const std::string& option, LawMode mode)
+std::string nameOf(LawMode mode)
 {
-  if (!absent)
+  return "'" + kLawModes.at(static_cast<std::size_t>(mode)) + "'";
+}
+
+// of a text that is wrong, and that the law would not take either, both is told
+void readFor(LawMode mode, const std::function<void()>& read)
+{
+  try
   {
-    throw Error(ErrorCode::BadValue,
-      option + ": the law '" + kLawModes.at(static_cast<std::size_t>(mode)) +
-        "' knows none; take the corrected law, or leave it out");
+    read();
+  }
+  catch (const Error& error)
+  {
+    if (mode == LawMode::Corrected)
+    {
+      throw;
+    }
+    throw Error(error.code(),
+      std::string(error.what()) + "; and take the law 'corrected', as " + nameOf(mode) +
+        " knows none");
   }
 }
 
@@ -79,23 +93,50 @@ void LawOptions::addTo(CLI::App& command)
   addParsed(command, "--coating",
     "Skin, fat, a capsule on the tissue, for --law corrected: THICKNESS:YOUNG:NU from the surface "
     "down, as in 2mm:200kPa:0.45,10mm:20kPa:0.48",
-    "", [this](const std::string& text) { coatings = parseCoatings(text); });
+    "",
+    [this](const std::string& text) { readFor(mode, [&] { coatings = parseCoatings(text); }); });
   addParsed(command, "--relaxation",
     "How the modulus falls while the tissue is held, for --law corrected: FRACTION:TIME of each "
     "part of --young that decays, as in 0.3:50ms,0.2:1s",
-    "", [this](const std::string& text) { relaxation = parseRelaxation(text); });
+    "",
+    [this](const std::string& text)
+    { readFor(mode, [&] { relaxation = parseRelaxation(text); }); });
+}
+
+void LawOptions::checkTaken(
+  const std::vector<std::string>& others, const std::string& besides) const
+{
+  if (mode == LawMode::Corrected)
+  {
+    return;
+  }
+  std::vector<std::string> given;
+  const auto add = [&](bool isAbsent, const char* option)
+  { given.insert(given.end(), isAbsent ? 0 : 1, option); };
+  add(coatings.empty(), "--coating");
+  add(relaxation.empty(), "--relaxation");
+  add(friction == 0.0, "--friction");
+  given.insert(given.end(), others.begin(), others.end());
+  if (given.empty())
+  {
+    return;
+  }
+  std::string names;
+  for (const std::string& one : given)
+  {
+    names += (names.empty() ? "" : ", ") + one;
+  }
+  const bool isOne = given.size() == 1;
+  throw Error(ErrorCode::BadValue,
+    names + ": the law " + nameOf(mode) + " knows none" + (isOne ? "" : " of these") +
+      "; take the law 'corrected'" + besides + ", or leave " + (isOne ? "it" : "them") + " out");
 }
 
 LawSettings LawOptions::settings() const
 {
   const bool needed =
     constitution != ConstitutiveModel::Linear && (rated || mode == LawMode::Corrected);
-  if (mode != LawMode::Corrected)
-  {
-    refuseUnless(coatings.empty(), "--coating", mode);
-    refuseUnless(relaxation.empty(), "--relaxation", mode);
-    refuseUnless(friction == 0.0, "--friction", mode);
-  }
+  checkTaken();
   return { .mode = mode,
     .base = base,
     .constitution = constitution,
@@ -169,6 +210,19 @@ std::string describeLaw(const LawSettings& settings)
     (settings.relaxation.empty() ? ""
                                  : ", relaxing by " + describeRelaxation(settings.relaxation)) +
     (settings.friction > 0.0 ? ", friction " + shortest(settings.friction) : "");
+}
+
+std::string actingFactors(const ForceLaw& law, const ContactGeometry& place)
+{
+  std::string acting;
+  for (const Factor& factor : law.factors(place))
+  {
+    if (const double value = std::round(factor.value * 1e4) / 1e4; value != 1.0)
+    {
+      acting += (acting.empty() ? "" : ", ") + std::string(factor.name) + " x" + shortest(value);
+    }
+  }
+  return acting;
 }
 
 std::string brokenNames(std::span<const Rule> rules)

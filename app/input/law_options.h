@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace CLI
 {
@@ -30,8 +31,16 @@ struct LawOptions
 
   void addTo(CLI::App& command);
 
-  /// The same without coatings.
+  /// The same without coatings and relaxation.
   void addUncoatedTo(CLI::App& command);
+
+  /// Refuses all at once that only the corrected law takes, under another law.
+  ///
+  /// @param others   further options of this kind that were given
+  /// @param besides  what one of them takes besides that law, as in ", with --history FILE.csv"
+  /// @throws Error   BadValue
+  void checkTaken(
+    const std::vector<std::string>& others = {}, const std::string& besides = "") const;
 
   /// @throws Error  BadFile: the shipped table of large strain, where it is needed; BadValue:
   ///                coatings, relaxation or friction under another law than the corrected one
@@ -56,6 +65,9 @@ struct LawOptions
 
 /// A law in words, as in `corrected, base bonded, neo-hookean`.
 [[nodiscard]] std::string describeLaw(const LawSettings& settings);
+
+/// The factors of a law that act at a place, as in `shape x0.8998, thickness x1.1768`; empty: none.
+[[nodiscard]] std::string actingFactors(const ForceLaw& law, const ContactGeometry& place);
 
 /// The place that is pressed, where no surface tells it.
 struct GeometryOptions

@@ -1,6 +1,5 @@
 #include "app/input/nodule_options.h"
 
-#include "app/input/option_values.h"
 #include "app/input/quantity.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
@@ -121,12 +120,6 @@ std::optional<NodulesUnderTool> NoduleOptions::under(
   if (nodules.empty())
   {
     return std::nullopt;
-  }
-  if (law.settings().mode != LawMode::Corrected)
-  {
-    throw Error(ErrorCode::BadValue,
-      "--nodule: the law '" + kLawModes.at(static_cast<std::size_t>(law.settings().mode)) +
-        "' knows none; take the corrected law, or leave it out");
   }
   if (!law.settings().coatings.empty())
   {

@@ -56,6 +56,10 @@ void checkAt(const JsonObject& object, std::string path, const std::function<voi
     if (path.ends_with('/'))
     {
       path = end > 0 ? path + message.substr(2, end - 2) : path.substr(0, path.size() - 1);
+      for (std::size_t dashes = path.find("--"); dashes != path.npos; dashes = path.find("--"))
+      {
+        path.erase(dashes, 2); // of each where several are refused at once
+      }
     }
     object.refuse(path, message.substr(end > 0 ? end + 2 : 0));
   }

@@ -208,6 +208,7 @@ std::string mapRefusal(const MeshSource& mesh, const LawOptions& law)
 
 void checkMap(const MeshSource& mesh, const LawOptions& law)
 {
+  mesh.stiffness.isGiven() ? law.checkTaken({ "--stiffness" }) : void();
   if (const std::string other = mapRefusal(mesh, law); !other.empty())
   {
     throw Error(ErrorCode::BadValue, "--stiffness: " + other);

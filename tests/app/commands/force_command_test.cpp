@@ -170,5 +170,23 @@ TEST(ForceCommand, RefusesNodulesThatCannotBe)
   EXPECT_NE(palpCommand("force --nodule 5mm:5mm:5").err.find("'paper'"), std::string::npos);
 }
 
+TEST(ForceCommand, TellsAtOnceAllThatTheLawDoesNotTake)
+{
+  const auto refused = [](const std::string& options)
+  { return palpCommand("force --law exact --relaxation " + options).err; };
+  EXPECT_EQ(refused("0.3:50ms --nodule 5mm:5mm:5 --coating 2mm:50kPa:0.45 --stiffness formula:6"),
+    "palp: --coating, --relaxation, --nodule, --stiffness: the law 'exact' knows none of these; "
+    "take the law 'corrected' and, to relax over time, --history FILE.csv with columns time_s and "
+    "depth_mm, or leave them out\n");
+  EXPECT_EQ(refused("0.3:50ms"),
+    "palp: --relaxation: the law 'exact' knows none; take the law 'corrected' and, to relax over "
+    "time, --history FILE.csv with columns time_s and depth_mm, or leave it out\n");
+  EXPECT_EQ(refused("0.3:0.05"),
+    "palp: --relaxation: '0.05' has no unit; write 0.05s (s, ms); and take the law 'corrected', as "
+    "'exact' knows none\n");
+  EXPECT_EQ(palpCommand("force --relaxation 0.3:0.05 --law corrected").err,
+    "palp: --relaxation: '0.05' has no unit; write 0.05s (s, ms)\n");
+}
+
 } // namespace
 } // namespace palp

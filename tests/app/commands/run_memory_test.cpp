@@ -87,6 +87,9 @@ TEST_F(RunCommand, RefusesThemOfTheOtherLawsAndOutOfRange)
   };
   refused("--friction 0.3", "--friction: the law 'paper' knows none");
   refused("--law exact --relaxation 0.5:1s", "--relaxation: the law 'exact' knows none");
+  refused("--law exact --relaxation 0.5:1s --friction 0.3 --stiffness formula:6",
+    "--relaxation, --friction, --stiffness: the law 'exact' knows none of these; take the law "
+    "'corrected', or leave them out");
   refused("--law corrected --friction -1", "--friction: '-1' is out of range; give 0 to 5");
   refused("--law corrected --friction nan", "--friction");
   refused("--law corrected --relaxation 0.5:1s,0.6:2s", "--relaxation: the fractions add up");

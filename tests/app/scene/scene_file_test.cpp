@@ -129,6 +129,8 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
     { R"({"tissue": {"coating": "2mm:50kPa:0.45"}})", "mine.json: /tissue/" },
     { R"({"tissue": {"coating": "2mm"}, "law": {"mode": "corrected"}})", "mine.json: /tissue/" },
     { R"({"tissue": {"relaxation": "0.5:1s"}})", "mine.json: /tissue/relaxation: the law 'paper'" },
+    { R"({"tissue": {"relaxation": "0.5:1s", "friction": 1}})",
+      "mine.json: /tissue/relaxation, friction: the law 'paper' knows none of these; take" },
     { R"({"tissue": {"friction": -1}})", "mine.json: /tissue/friction: '-1' is out of range" },
     { R"({"tissue": []})", "mine.json: /tissue: must be an object" },
     { R"({"tool": "hammer:1mm"})", "mine.json: /tool: " },
