@@ -76,15 +76,6 @@ double ratioOf(const std::string& text)
   return ratio;
 }
 
-ForceLaw lawOf(const DetectOptions& options)
-{
-  if (options.tissue.options.mode != LawMode::Corrected)
-  {
-    throw Error(ErrorCode::BadValue, "--law: only the corrected law knows nodules; leave it out");
-  }
-  return options.tissue.law();
-}
-
 ContactGeometry placeOf(const DetectOptions& options)
 {
   ContactGeometry place = options.geometry.geometry;
@@ -127,7 +118,7 @@ figures::Table emptyTable()
 
 figures::Table detect(const DetectOptions& options)
 {
-  const NoduleContrast contrast(lawOf(options), placeOf(options));
+  const NoduleContrast contrast(options.tissue.law(), placeOf(options));
   figures::Table table = emptyTable();
   for (std::size_t i = 0; i < options.covers.si.size(); ++i)
   {
@@ -187,7 +178,7 @@ std::string headOf(const DetectOptions& options)
 
 void tellLimits(const DetectOptions& options)
 {
-  const Validity validity(lawOf(options), { .deepest = options.depth });
+  const Validity validity(options.tissue.law(), { .deepest = options.depth });
   const std::string broken = brokenNames(validity(placeOf(options)));
   if (!broken.empty())
   {
@@ -235,9 +226,8 @@ void addDetectCommand(CLI::App& app, const Renderer* pictures)
   DetectOptions* all = options.get();
   CLI::App* command =
     app.add_subcommand("detect", "Tell the smallest nodule that can be felt below each cover");
-  options->tissue.options.mode = LawMode::Corrected;
   options->tissue.addMaterialTo(*command);
-  options->tissue.options.addUncoatedTo(*command);
+  options->tissue.options.addCorrectedTo(*command);
   options->geometry.addTo(*command);
   const auto add = [&](const char* name, const char* what, const char* usual, auto take)
   {

@@ -48,9 +48,20 @@ LargeStrainTable shippedTable(LawMode mode)
   }
 }
 
-std::string nameOf(LawMode mode)
+const std::string& nameOf(LawMode mode)
 {
-  return "'" + kLawModes.at(static_cast<std::size_t>(mode)) + "'";
+  return kLawModes.at(static_cast<std::size_t>(mode));
+}
+
+// what is pressed, as the corrected law takes it
+void addBodyTo(CLI::App& command, LawOptions& options)
+{
+  addChoice(command, "--base",
+    "What the body lies on, for --law corrected: bonded, slip, or unset, which is answered as "
+    "bonded and flagged where a free part of the body would bend",
+    kBases, options.base);
+  addChoice(command, "--material", "Under large strain, for --law corrected: linear or neo-hookean",
+    kMaterials, options.constitution);
 }
 
 // of a text that is wrong, and that the law would not take either, both is told
@@ -67,8 +78,8 @@ void readFor(LawMode mode, const std::function<void()>& read)
       throw;
     }
     throw Error(error.code(),
-      std::string(error.what()) + "; and take the law 'corrected', as " + nameOf(mode) +
-        " knows none");
+      std::string(error.what()) + "; and take the law 'corrected', as '" + nameOf(mode) +
+        "' knows none");
   }
 }
 
@@ -79,12 +90,22 @@ void LawOptions::addUncoatedTo(CLI::App& command)
   addChoice(command, "--law",
     "paper: Eqs. (2)-(5); exact: linear half-space; corrected: every factor that acts", kLawModes,
     mode);
-  addChoice(command, "--base",
-    "What the body lies on, for --law corrected: bonded, slip, or unset, which is answered as "
-    "bonded and flagged where a free part of the body would bend",
-    kBases, base);
-  addChoice(command, "--material", "Under large strain, for --law corrected: linear or neo-hookean",
-    kMaterials, constitution);
+  addBodyTo(command, *this);
+}
+
+void LawOptions::addCorrectedTo(CLI::App& command)
+{
+  mode = LawMode::Corrected;
+  addParsed(command, "--law", "corrected alone, which knows nodules", nameOf(mode),
+    [](const std::string& name)
+    {
+      if (name != nameOf(LawMode::Corrected))
+      {
+        throw Error(
+          ErrorCode::BadValue, "--law: only the corrected law knows nodules; leave it out");
+      }
+    });
+  addBodyTo(command, *this);
 }
 
 void LawOptions::addTo(CLI::App& command)
@@ -128,7 +149,7 @@ void LawOptions::checkTaken(
   }
   const bool isOne = given.size() == 1;
   throw Error(ErrorCode::BadValue,
-    names + ": the law " + nameOf(mode) + " knows none" + (isOne ? "" : " of these") +
+    names + ": the law '" + nameOf(mode) + "' knows none" + (isOne ? "" : " of these") +
       "; take the law 'corrected'" + besides + ", or leave " + (isOne ? "it" : "them") + " out");
 }
 

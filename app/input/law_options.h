@@ -34,6 +34,9 @@ struct LawOptions
   /// The same without coatings and relaxation.
   void addUncoatedTo(CLI::App& command);
 
+  /// The same for the corrected law alone, the only one that is offered.
+  void addCorrectedTo(CLI::App& command);
+
   /// Refuses all at once that only the corrected law takes, under another law.
   ///
   /// @param others   further options of this kind that were given

@@ -138,7 +138,12 @@ TEST(DetectCommand, RefusesBadInputInOneSentence)
     EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
     EXPECT_NE(run.err.find(sentence), std::string::npos) << arguments << ": " << run.err;
   }
-  EXPECT_NE(palp("detect --help").out.find("palp detect --tip"), std::string::npos);
+  const std::string help = palp("detect --help").out;
+  EXPECT_NE(help.find("palp detect --tip"), std::string::npos);
+  const std::string law = help.substr(help.find("--law TEXT"), 120); // and what it takes
+  EXPECT_NE(law.find("corrected"), std::string::npos) << law;
+  EXPECT_EQ(law.find("paper"), std::string::npos) << law;
+  EXPECT_EQ(palp("detect --law corrected --cover 5:5:1mm").code, 0);
 }
 
 } // namespace
