@@ -93,13 +93,23 @@ void checkNodule(const Case& study)
   const auto& [radius, top, material] = study.nodule;
   require(study.model == BodyModel::Axisymmetric && study.coatings.empty(),
     "--nodule: taken by --model axisymmetric without --coating only; leave one of them out");
+  using units::inMillimeters;
   const double least = 2.0 * elementSize(study);
-  require(radius >= least && top >= least && study.height - top - 2.0 * radius >= least,
-    "--nodule: it, or what is above or below it, is thinner than two elements of " +
-      units::inMillimeters(0.5 * least) +
-      "; give a nodule that lies within the block, or a smaller --element-size");
-  require(2.0 * radius < 0.5 * std::min(study.width, study.length),
-    "--nodule: wider than half of the block; give a smaller one, or a wider --block");
+  const std::string elements = "two elements of " + inMillimeters(0.5 * least);
+  require(radius >= least,
+    "--nodule: its radius of " + inMillimeters(radius) + " is less than " + elements +
+      "; give a larger one, or a smaller --element-size");
+  require(top >= least,
+    "--nodule: its highest point, " + inMillimeters(top) + " deep, is less than " + elements +
+      " below the surface; give it deeper, or a smaller --element-size");
+  const double bottom = top + 2.0 * radius;
+  const double halfWidth = 0.5 * std::min(study.width, study.length);
+  require(study.height - bottom >= least && 2.0 * radius < halfWidth,
+    "--nodule: it reaches from " + inMillimeters(top) + " to " + inMillimeters(bottom) +
+      " deep and is " + inMillimeters(2.0 * radius) + " wide, and this block takes one to " +
+      inMillimeters(study.height - least) + " deep, " + elements +
+      " above its base, and less than half as wide as it, " + inMillimeters(halfWidth) +
+      "; give a smaller nodule, or a larger --block");
 }
 
 void checkMap(const Case& study)

@@ -223,6 +223,25 @@ TEST(CalibrateCommand, SweepMakesTheTablesOfItsCasesAndKeepsThem)
   EXPECT_EQ(tables, alone);
 }
 
+// of a block of 100 x 100 x 50 mm in elements of 0.5 mm
+TEST(CalibrateCommand, SaysWhyANoduleDoesNotFitTheBlock)
+{
+  const auto refused = [](const std::string& nodule)
+  { return test::runCommand(PALP_PROGRAM " calibrate --no-picture --nodule " + nodule).err; };
+  EXPECT_EQ(refused("60mm:5mm:5"),
+    "palp: --nodule: it reaches from 5 mm to 125 mm deep and is 120 mm wide, and this block takes "
+    "one to 49 mm deep, two elements of 0.5 mm above its base, and less than half as wide as it, "
+    "50 mm; give a smaller nodule, or a larger --block\n");
+  EXPECT_NE(
+    refused("20mm:15mm:5").find("from 15 mm to 55 mm deep and is 40 mm wide"), std::string::npos);
+  EXPECT_NE(refused("0.8mm:5mm:5").find("its radius of 0.8 mm is less than two elements of 0.5 mm"),
+    std::string::npos);
+  EXPECT_NE(refused("5mm:0.6mm:5")
+              .find("its highest point, 0.6 mm deep, is less than two elements "
+                    "of 0.5 mm below the surface"),
+    std::string::npos);
+}
+
 TEST(CalibrateCommand, RefusesBadInputInOneLine)
 {
   for (const char* bad : { "--tip sphere:60mm", "--threshold 12mm", "--threshold 10mm",
