@@ -282,7 +282,7 @@ void addRunCommand(CLI::App& app, const Renderer* pictures, Work work)
         (void)options->press.tissue.law();
         return;
       }
-      if (isExport(options->mesh.file))
+      if (isWholeExport(options->mesh.file))
       {
         refuseBeside(*command, options->mesh.file, { "FILE", "--out", "--overwrite", "--movie" });
         repeat(*options, pictures);

@@ -147,7 +147,8 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
   command->callback(
     [options, view, command]
     {
-      if (const std::filesystem::path folder = options->plan.meshes.front().file; isExport(folder))
+      if (const std::filesystem::path folder = options->plan.meshes.front().file;
+          isWholeExport(folder))
       {
         refuseBeside(*command, folder, { "FILE", "--device", "--dead-man" });
         openExport(*options, folder);

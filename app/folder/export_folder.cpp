@@ -143,6 +143,26 @@ bool isExport(const fs::path& folder)
   return fs::is_directory(folder, none) && fs::exists(folder / kScene, none);
 }
 
+bool isWholeExport(const fs::path& folder)
+{
+  if (isExport(folder))
+  {
+    return true;
+  }
+  std::error_code none;
+  const std::vector<std::string> names = exportFiles();
+  const auto isThere = [&](const std::string& name) { return fs::exists(folder / name, none); };
+  if (fs::is_directory(folder, none) &&
+    (fs::is_empty(folder, none) || std::ranges::any_of(names, isThere)))
+  {
+    throw Error(ErrorCode::BadFile,
+      folder.string() +
+        ": has no scene.json, by which an exported folder is repeated; bring it back, or give "
+        "another folder");
+  }
+  return false;
+}
+
 ExportFolder readExport(const fs::path& folder)
 {
   if (!isExport(folder))
@@ -237,17 +257,17 @@ void checkInputs(const ExportFolder& made, const ScenePlan& plan, const Recordin
   }
 }
 
-std::string differences(const ExportFolder& made, const fs::path& stage)
+std::vector<std::string> differences(const ExportFolder& made, const fs::path& stage)
 {
   const std::vector<MeshFile> now = outputsIn(stage);
-  std::string names;
+  std::vector<std::string> names;
   for (const MeshFile& before : made.outputs)
   {
     const auto same = [&](const MeshFile& file)
     { return file.name == before.name && file.sha256 == before.sha256; };
     if (std::ranges::none_of(now, same))
     {
-      names.append(names.empty() ? "" : ", ").append(printable(before.name));
+      names.push_back(printable(before.name));
     }
   }
   return names;

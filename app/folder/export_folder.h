@@ -32,6 +32,10 @@ struct ExportFolder
 /// Whether a path names a folder with a scene.json.
 [[nodiscard]] bool isExport(const std::filesystem::path& folder);
 
+/// The same, and refuses a folder that would be one but for its scene.json, or that is empty.
+/// @throws Error  BadFile
+[[nodiscard]] bool isWholeExport(const std::filesystem::path& folder);
+
 /// @throws Error  BadFile: a file is missing, is none of this kind, or as readScene
 [[nodiscard]] ExportFolder readExport(const std::filesystem::path& folder);
 
@@ -68,8 +72,9 @@ void addToProvenance(const std::filesystem::path& folder, const std::vector<std:
 /// @throws Error  BadFile: names the first that has changed
 void checkInputs(const ExportFolder& made, const ScenePlan& plan, const Recording& recording);
 
-/// The files that differ from what the folder says they were, as words; empty: none.
+/// The files that differ from what the folder says they were.
 /// @param stage  what was made anew, or the folder itself, as it is now
-[[nodiscard]] std::string differences(const ExportFolder& made, const std::filesystem::path& stage);
+[[nodiscard]] std::vector<std::string> differences(
+  const ExportFolder& made, const std::filesystem::path& stage);
 
 } // namespace palp

@@ -2,6 +2,7 @@
 
 #include "app/folder/export_folder.h"
 #include "app/folder/played_plan.h"
+#include "app/folder/repetition.h"
 #include "app/headless/renderer.h"
 #include "app/press/body.h"
 #include "app/press/export.h"
@@ -253,34 +254,6 @@ void writeAll(const PlayedPress& all, const std::filesystem::path& out, const Re
   writeProvenance(out, all.plan, all.recording);
 }
 
-void tellDifferences(const ExportFolder& repeated, const std::filesystem::path& out)
-{
-  const std::string other = differences(repeated, out);
-  std::cerr << "palp: " << repeated.folder.string()
-            << (other.empty()
-                   ? ": repeated to the byte"
-                   : ": made by palp " + repeated.version + ", comes out another in " + other)
-            << '\n';
-  for (const MeshFile& file : repeated.beside)
-  {
-    std::cerr << "palp: " << (repeated.folder / file.name).string() << ": not repeated\n";
-  }
-  if (const auto takes = takesIn(repeated.folder).size(); takes > 1)
-  {
-    std::cerr << "palp: " << takes - 1 << " earlier recordings are exports of their own, as "
-              << earlierTake(repeated.folder, 1).string() << "; repeat each by itself\n";
-  }
-  if (const std::string edited = differences(repeated, repeated.folder); !edited.empty())
-  {
-    std::cerr << "palp: warning: " << repeated.folder.string()
-              << " is not as it was written; changed or removed since: " << edited << '\n';
-  }
-  if (const auto servo = repeated.folder / "servo.csv"; std::filesystem::exists(servo))
-  {
-    std::filesystem::copy_file(servo, out / "servo.csv");
-  }
-}
-
 } // namespace
 
 void playPlan(const ScenePlan& plan, OutputFolder& output, const Renderer* pictures,
@@ -330,7 +303,7 @@ void playPlan(const ScenePlan& plan, OutputFolder& output, const Renderer* pictu
   writeAll({ plan, body, recording, known, given.text }, output.stage(), pictures, trace);
   if (repeated)
   {
-    tellDifferences(*repeated, output.stage());
+    tellRepetition(*repeated, output.stage());
   }
   output.publish();
   explainOmissions(plan, trace);

@@ -159,7 +159,7 @@ void addSearch(CLI::App& command, TrainOptions& options)
 void run(const CLI::App& command, TrainOptions& options, const Renderer* pictures,
   int (*view)(const ViewOptions&))
 {
-  if (isExport(options.mesh.file))
+  if (isWholeExport(options.mesh.file))
   {
     refuseBeside(command, options.mesh.file, { "FILE", "--out", "--overwrite" });
     repeat(options, pictures);

@@ -156,6 +156,57 @@ TEST_F(TrainCommand, IsRepeatedToTheByte)
   }
 }
 
+// also where the folder's own record of its files was changed to match
+TEST_F(TrainCommand, SaysThatChangedFiguresDoNotFollowFromTheRecording)
+{
+  mark({ 1.25, 3.5 });
+  ASSERT_EQ(train("--seed 5 --out " + file("graded")).code, 0);
+  const auto shaOf = [&]
+  {
+    const std::string sums = test::runCommand("sha256sum " + file("graded/score.json")).out;
+    return sums.substr(0, sums.find(' '));
+  };
+  const std::string before = shaOf();
+  std::string text = test::readAll(folder() / "graded/score.json");
+  text.insert(text.find("\"hits\": ") + 8, "1"); // ten more
+  std::ofstream(folder() / "graded/score.json") << text;
+  const std::string says = "the figures of its score.json do not follow from the recording";
+  for (const bool isRecordChanged : { false, true })
+  {
+    if (isRecordChanged)
+    {
+      std::string record = test::readAll(folder() / "graded/provenance.json");
+      record.replace(record.find(before), before.size(), shaOf());
+      std::ofstream(folder() / "graded/provenance.json") << record;
+    }
+    const Finished again = palp("train " + file("graded") + " --overwrite --out " + file("again"));
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_NE(again.err.find(says), std::string::npos) << again.err;
+    for (const char* other : { "repeated to the byte", "comes out another", "changed or removed" })
+    {
+      EXPECT_EQ(again.err.find(other), std::string::npos) << again.err;
+    }
+  }
+}
+
+TEST_F(TrainCommand, NamesTheSceneThatAFolderLacks)
+{
+  mark({ 1.25 });
+  ASSERT_EQ(train("--seed 5 --out " + file("graded")).code, 0);
+  std::filesystem::remove(folder() / "graded/scene.json");
+  std::filesystem::create_directory(folder() / "empty");
+  for (const std::string command : { "train ", "run --out again ", "view " })
+  {
+    for (const char* name : { "graded", "empty" })
+    {
+      const Finished refused = palp(command + file(name));
+      EXPECT_EQ(refused.code, 2) << refused.err;
+      EXPECT_NE(refused.err.find(file(name) + ": has no scene.json"), std::string::npos)
+        << command << refused.err;
+    }
+  }
+}
+
 TEST_F(TrainCommand, RefusesWhatCannotBeGradedInOneSentence)
 {
   mark({ 1.0 });
