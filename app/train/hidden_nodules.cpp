@@ -12,10 +12,13 @@
 #include "haptics/units.h"
 
 #include <algorithm>
+#include <compare>
 #include <limits>
 #include <map>
 #include <random>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace palp
 {
@@ -31,6 +34,35 @@ constexpr double kEdge = 15.0_mm; // from sharp and open edges
 constexpr double kBase = 5.0_mm;  // below a nodule to the far side
 constexpr double kSlack = 0.2_mm; // that a curved surface may bring it nearer
 
+// Why a nodule may not be at a place, and what to give so that it may.
+struct Obstacle
+{
+  std::string why; // empty: it may
+  std::string remedy{};
+
+  auto operator<=>(const Obstacle&) const = default;
+};
+
+// of a press that breaks some rule of the law
+Obstacle obstacleOf(std::span<const Rule> rules, const Rule& first, const std::string& depth)
+{
+  const auto isBroken = [&](std::string_view name)
+  {
+    return std::ranges::any_of(
+      rules, [&](const Rule& rule) { return rule.name == name && !rule.holds(); });
+  };
+  std::string remedy = "another tool, level or body";
+  if (isBroken("depth") || isBroken("large_strain"))
+  {
+    remedy = std::string(isBroken("large_strain") ? "a sphere or a cone as tool" : "a tool") +
+      (isBroken("depth") ? ", with a radius above " + depth + ", or another level"
+                         : ", or the material 'linear'");
+  }
+  return { "a press of " + depth + " is beyond the limits of the law (" + first.name + ": " +
+      first.why + ")",
+    remedy };
+}
+
 class HidingPlace
 {
 public:
@@ -45,7 +77,7 @@ public:
   struct Found
   {
     PlacedNodule nodule;
-    std::string obstacle; // why it may not be; empty: it may
+    Obstacle obstacle;
   };
 
   // a nodule of the level there
@@ -62,13 +94,14 @@ public:
     const double depth =
       -findClosestPoint(surface_, placed.center, std::numeric_limits<double>::infinity()).distance;
     return { placed,
-      std::abs(depth - nodule.depth()) > kSlack ? "the body is too thin or bent"
-                                                : obstacleAt(above, nodule) };
+      std::abs(depth - nodule.depth()) > kSlack
+        ? Obstacle{ "the body is too thin or bent", "another level or body" }
+        : obstacleAt(above, nodule) };
   }
 
 private:
   // what keeps the level's press right above it from being one that the law knows, and feels it
-  [[nodiscard]] std::string obstacleAt(const SurfacePoint& above, const Nodule& nodule) const
+  [[nodiscard]] Obstacle obstacleAt(const SurfacePoint& above, const Nodule& nodule) const
   {
     const ToolPose pose{ .apex = above.position - level_.depth * above.normal,
       .axis = -above.normal };
@@ -76,11 +109,11 @@ private:
     const ContactGeometry place = contactGeometryOf(contact);
     if (!contact.touching() || contact.edgeDistance < kEdge)
     {
-      return "an edge is nearer than " + units::inMillimeters(kEdge);
+      return { "an edge is nearer than " + units::inMillimeters(kEdge), "another side or body" };
     }
     if (place.thickness < nodule.top + 2.0 * nodule.radius + kBase)
     {
-      return "the body is too thin";
+      return { "the body is too thin", "another level or body" };
     }
     const Rules rules = validity_(place, contact.edgeDistance);
     // how a body is held changes its force everywhere alike, and no contrast
@@ -88,15 +121,17 @@ private:
       rules, [](const Rule& rule) { return !rule.holds() && rule.name != std::string("support"); });
     if (broken != rules.end())
     {
-      return "a press of " + units::inMillimeters(level_.depth) +
-        " is beyond the limits of the law (" + broken->name + ": " + broken->why + ")";
+      return obstacleOf(rules, *broken, units::inMillimeters(level_.depth));
     }
     const NoduleContrast contrast(law_, place);
     if (!contrast.rules(nodule)[0].holds())
     {
-      return "the tool is too wide for nodules so near to it";
+      return { "the tool is too wide for nodules so near to it",
+        "a narrower tool, or another level" };
     }
-    return contrast(nodule) >= level_.contrast ? "" : "the tool would feel too little of it";
+    return contrast(nodule) >= level_.contrast
+      ? Obstacle{}
+      : Obstacle{ "the tool would feel too little of it", "another tool or level" };
   }
 
   const Surface& surface_;
@@ -152,11 +187,12 @@ private:
       { return (other - place.position).norm() < apart_; };
       if (std::ranges::any_of(above, isNear))
       {
-        ++obstacles_["another nodule is nearer than " + units::inMillimeters(apart_)];
+        ++obstacles_[{
+          "another nodule is nearer than " + units::inMillimeters(apart_), "another body" }];
         continue;
       }
       auto [nodule, obstacle] = place_.at(place, engine_);
-      if (!obstacle.empty())
+      if (!obstacle.why.empty())
       {
         ++obstacles_[obstacle];
         continue;
@@ -169,13 +205,15 @@ private:
 
   [[noreturn]] void refuse(std::size_t most) const
   {
-    const auto worst = std::ranges::max_element(
-      obstacles_, {}, [](const auto& obstacle) { return obstacle.second; });
+    const Obstacle& worst = std::ranges::max_element(obstacles_, {},
+      [](const auto& obstacle) {
+        return obstacle.second;
+      })->first;
     throw Error(ErrorCode::BadValue,
       "training: only " + std::to_string(most) + " of " + counted(count_, "nodule") +
         " of the level '" + level_.name +
-        "' find room below the side that is searched, as at most places " + worst->first +
-        "; give fewer, another seed, level, tool or body");
+        "' find room below the side that is searched, as at most places " + worst.why + "; give " +
+        (most > 0 ? "fewer, another seed, or " : "") + worst.remedy);
   }
 
   const TrainingLevel& level_;
@@ -184,7 +222,7 @@ private:
   HidingPlace place_;
   AreaDarts darts_;
   std::mt19937_64 engine_;
-  std::map<std::string, int> obstacles_; // met so far
+  std::map<Obstacle, int> obstacles_; // met so far
 };
 
 } // namespace

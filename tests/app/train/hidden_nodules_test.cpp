@@ -17,10 +17,12 @@ namespace palp
 namespace
 {
 
-ForceLaw lawOf(LawMode mode)
+ForceLaw lawOf(LawMode mode, const Tip& tip = SphereTip{ 10.0e-3 },
+  ConstitutiveModel constitution = ConstitutiveModel::NeoHookean)
 {
-  TissueOptions options{ .young = 6.63e3, .poisson = 0.49, .options = {} };
+  TissueOptions options{ .tip = tip, .young = 6.63e3, .poisson = 0.49, .options = {} };
   options.options.mode = mode;
+  options.options.constitution = constitution;
   return options.law();
 }
 
@@ -47,9 +49,15 @@ protected:
 
   [[nodiscard]] std::string refusalOf(const Surface& surface) const
   {
+    return refusalOf(surface, law_);
+  }
+
+  [[nodiscard]] std::string refusalOf(
+    const Surface& surface, const ForceLaw& law, const TrainingPlan& plan = {}) const
+  {
     try
     {
-      (void)hideNodules(surface, law_, curriculum_, {});
+      (void)hideNodules(surface, law, curriculum_, plan);
     }
     catch (const Error& error)
     {
@@ -135,8 +143,26 @@ TEST_F(HiddenNodules, AreRefusedWhereTheyHaveNoRoomOrAreNotKnown)
   const Mesh plate = makeBox({ 0.1, 0.1, 0.012 }, 5.0e-3);
   const std::string thin = refusalOf({ plate.points, plate.triangles });
   EXPECT_NE(thin.find("as at most places the body is too thin"), std::string::npos) << thin;
+  EXPECT_NE(thin.find("; give another level or body"), std::string::npos) << thin;
   EXPECT_THROW((void)hideNodules(ball_, lawOf(LawMode::Paper), curriculum_, {}), Error);
   EXPECT_THROW((void)hide({ .level = "impossible" }), Error);
+}
+
+// large strain is known of spheres and cones, and of none deeper than its radius
+TEST_F(HiddenNodules, SayWithWhatTheyWouldFindRoomUnderAPunch)
+{
+  const auto ends = [&](double radius, const TrainingPlan& plan, const std::string& remedy)
+  {
+    const std::string why = refusalOf(ball_, lawOf(LawMode::Corrected, PunchTip{ radius }), plan);
+    EXPECT_TRUE(why.ends_with("; give " + remedy)) << why;
+  };
+  ends(5.0e-3, { .level = "easy" }, "a sphere or a cone as tool, or the material 'linear'");
+  ends(4.5e-3, { .level = "medium" },
+    "a sphere or a cone as tool, with a radius above 5 mm, or another level");
+  EXPECT_EQ(
+    refusalOf(ball_, lawOf(LawMode::Corrected, PunchTip{ 5.0e-3 }, ConstitutiveModel::Linear),
+      { .level = "easy" }),
+    "accepted");
 }
 
 TEST(Curriculum, IsRefusedByItsKey)
