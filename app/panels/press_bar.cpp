@@ -3,6 +3,7 @@
 #include "app/input/quantity.h"
 #include "app/panels/panel_boxes.h"
 #include "haptics/error.h"
+#include "haptics/files/fixed_text.h"
 #include "haptics/units.h"
 
 #include <QAbstractItemView>
@@ -31,7 +32,7 @@ QString textOf(const Eigen::Vector3d& place)
   QStringList numbers;
   for (const double coordinate : place)
   {
-    numbers << QString::number(units::toMillimeters(coordinate), 'f', 2);
+    numbers << QString::fromStdString(fixed(units::toMillimeters(coordinate), 2));
   }
   return numbers.join(", ");
 }

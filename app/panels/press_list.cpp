@@ -3,6 +3,7 @@
 #include "app/input/law_options.h"
 #include "app/input/tip_text.h"
 #include "app/plots/kept_presses.h"
+#include "haptics/files/fixed_text.h"
 #include "haptics/units.h"
 
 #include <QAction>
@@ -42,7 +43,7 @@ public:
 
 QString number(double value, int decimals)
 {
-  return QString::number(value, 'f', decimals);
+  return QString::fromStdString(fixed(value, decimals));
 }
 
 // a line as the curve's
@@ -71,10 +72,7 @@ QStringList cellsOf(const KeptPress& press)
     number(units::toKilopascals(press.law.material().youngModulus), 1),
     all.stiffness ? number(units::toNewtonsPerMillimeter(*all.stiffness), 3) : QObject::tr("–"),
     number(1e3 * all.energy, 2),
-    QString("%1, %2, %3")
-      .arg(place.x(), 0, 'f', 1)
-      .arg(place.y(), 0, 'f', 1)
-      .arg(place.z(), 0, 'f', 1),
+    QString("%1, %2, %3").arg(number(place.x(), 1), number(place.y(), 1), number(place.z(), 1)),
     press.outside.empty() ? QObject::tr("within limits") : QString::fromStdString(press.outside),
     QString::fromStdString(press.organ) };
 }

@@ -1,5 +1,6 @@
 #include "app/panels/validity_panel.h"
 
+#include "haptics/files/fixed_text.h"
 #include "haptics/force/nodules/detection.h"
 #include "haptics/units.h"
 #include "pipeline/view/appearance.h"
@@ -54,10 +55,11 @@ QString useOf(const Rule& rule)
 // a nodule in what people notice at least
 QString contrastText(std::size_t number, double contrast)
 {
+  const std::string percent = fixed(100.0 * contrast, 1);
+  const bool isMore = !percent.starts_with('-') && percent != fixed(0.0, 1);
   QString text = QStringLiteral("nodule %1: %2%3 % of the force<br>")
                    .arg(number)
-                   .arg(contrast < 0.0 ? "" : "+")
-                   .arg(100.0 * contrast, 0, 'f', 1);
+                   .arg(isMore ? "+" : "", QString::fromStdString(percent));
   for (const JustNoticeable& difference : kJustNoticeable)
   {
     text += QStringLiteral("&nbsp;&nbsp;%1 times the %2 % that people notice of %3<br>")

@@ -1,6 +1,7 @@
 #include "calibration/experiments/experiment_parts.h"
 
 #include "app/report/parts.h"
+#include "haptics/files/fixed_text.h"
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
 
@@ -53,16 +54,12 @@ Section experimentSection(Experiment experiment, const Effort& effort, const std
 
 std::string millimeters(double value)
 {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", value);
-  return std::isfinite(value) ? text : "nowhere";
+  return std::isfinite(value) ? fixed(value, 1) + " mm" : "nowhere";
 }
 
 std::string percentage(double value)
 {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %%", value);
-  return text;
+  return fixed(value, 1) + " %";
 }
 
 // the first of the three spheres that departs by 7 %

@@ -2,6 +2,7 @@
 
 #include "app/input/tip_text.h"
 #include "haptics/files/csv_text.h"
+#include "haptics/files/fixed_text.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/replace_file.h"
 #include "haptics/units.h"
@@ -9,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdio>
 
 namespace palp
 {
@@ -19,16 +19,9 @@ namespace
 using Json = nlohmann::ordered_json;
 using units::toMillimeters;
 
-std::string number(double value, int digits)
-{
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
-
 std::string percent(double fraction)
 {
-  return number(1e2 * fraction, 1);
+  return fixed(1e2 * fraction, 1);
 }
 
 Json millimeters(const Eigen::Vector3d& place)
@@ -126,24 +119,24 @@ std::vector<Measure> measuresOf(const ScoreSheet& sheet)
     { "misses", "Missed", count(grade.nodules.size() - grade.hits), "", free },
     { "false_marks", "False marks", count(grade.falseMarks), "", free },
     { "repeated_marks", "More marks on a found one", count(grade.repeatedMarks), "", free },
-    { "hits_by_chance", "Found by chance, with as many marks", number(grade.hitsByChance, 2), "",
+    { "hits_by_chance", "Found by chance, with as many marks", fixed(grade.hitsByChance, 2), "",
       "area near the nodules over the area searched" },
     { "distance_error_mm", "Mean distance of hits",
-      grade.meanError ? number(toMillimeters(*grade.meanError), 1) : "", "mm",
+      grade.meanError ? fixed(toMillimeters(*grade.meanError), 1) : "", "mm",
       "deformation-based tactile feedback, Robot. Auton. Syst., 2012" },
-    { "time_s", "Time, first to last touch", number(grade.time, 1), "s",
+    { "time_s", "Time, first to last touch", fixed(grade.time, 1), "s",
       "Fletcher et al., JAMA 253:2224, 1985" },
-    { "peak_force_N", "Peak force", number(grade.peakForce, 2), "N", force },
-    { "mean_force_N", "Mean force", number(grade.meanForce, 2), "N", force },
+    { "peak_force_N", "Peak force", fixed(grade.peakForce, 2), "N", force },
+    { "mean_force_N", "Mean force", fixed(grade.meanForce, 2), "N", force },
     { "coverage_percent", "Surface covered", percent(grade.coverage), "%",
       "Saunders et al., Cancer 58:2531, 1986" },
     { "too_hard_percent", "Time too hard", percent(grade.tooHard), "%",
       "over 6 N: remote palpation of lung, ICRA 2012" },
     { "too_soft_percent", "Time too soft", percent(grade.tooSoft), "%",
-      "contact radius below " + number(toMillimeters(grade.softRadius), 1) +
+      "contact radius below " + fixed(toMillimeters(grade.softRadius), 1) +
         " mm, at which the deepest nodules stand out most: Eshelby, flat punch" },
     { "path_length_mm", "Path of the tool while it touches",
-      number(toMillimeters(grade.pathLength), 0), "mm",
+      fixed(toMillimeters(grade.pathLength), 0), "mm",
       "Datta et al., J. Am. Coll. Surg. 193:479, 2001" },
   };
 }

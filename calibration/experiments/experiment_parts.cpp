@@ -2,6 +2,7 @@
 
 #include "calibration/fem/mesh.h"
 #include "haptics/error.h"
+#include "haptics/files/fixed_text.h"
 #include "haptics/force/validity.h"
 
 #include <algorithm>
@@ -120,13 +121,6 @@ std::string passesAt(const std::vector<double>& depths, const std::vector<double
   const double last =
     known == errors.begin() ? 0.0 : depths[static_cast<std::size_t>(known - errors.begin()) - 1];
   return "nowhere to " + fixed(toMillimeters(last), 1) + " mm";
-}
-
-std::string fixed(double value, int digits)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
 }
 
 Experiment experimentOf(std::string name, std::vector<std::string> columns)

@@ -46,8 +46,6 @@ inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 [[nodiscard]] std::string passesAt(
   const std::vector<double>& depths, const std::vector<double>& errors);
 
-[[nodiscard]] std::string fixed(double value, int digits);
-
 /// An experiment without rows.
 [[nodiscard]] Experiment experimentOf(std::string name, std::vector<std::string> columns);
 

@@ -1,5 +1,6 @@
 #include "calibration/experiments/experiment_parts.h"
 #include "calibration/fem/mesh.h"
+#include "haptics/files/fixed_text.h"
 #include "haptics/force/force_law.h"
 #include "haptics/force/inclination.h"
 #include "haptics/force/validity.h"

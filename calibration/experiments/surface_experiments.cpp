@@ -1,6 +1,7 @@
 #include "calibration/experiments/experiment_parts.h"
 #include "calibration/study/curve_fit.h"
 #include "calibration/study/surface_fit.h"
+#include "haptics/files/fixed_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 #include "calibration/study/mesh_check.h"
 #include "calibration/study/study_files.h"
 #include "haptics/error.h"
+#include "haptics/files/fixed_text.h"
 #include "haptics/units.h"
 
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 namespace palp::fem
@@ -17,9 +17,7 @@ namespace
 // change: on halving the elements [-]; infinite or NaN where it is not known
 std::string refusal(const Case& study, double depth, double change)
 {
-  char percent[16];
-  std::snprintf(percent, sizeof percent, "%.1f %%", 100.0 * change);
-  std::string why = "halving the elements may change it by " + std::string(percent);
+  std::string why = "halving the elements may change it by " + fixed(100.0 * change, 1) + " %";
   if (!std::isfinite(change))
   {
     why = std::isnan(change) ? "it depends on the mesh"

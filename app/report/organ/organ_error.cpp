@@ -6,6 +6,7 @@
 #include "app/report/pareto.h"
 #include "calibration/experiments/experiment_parts.h"
 #include "calibration/organ/organ_places.h"
+#include "haptics/files/fixed_text.h"
 #include "haptics/numerics/statistics.h"
 #include "haptics/servo/servo_step.h"
 #include "haptics/threads/followed_work.h"
@@ -24,7 +25,6 @@ namespace
 {
 
 using namespace units::literals;
-using fem::parts::fixed;
 using fem::parts::kMissing;
 using Clock = std::chrono::steady_clock;
 

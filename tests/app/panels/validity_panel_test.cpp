@@ -23,6 +23,8 @@ TEST(ValidityPanel, TellsEachNoduleInWhatPeopleNotice)
   {
     EXPECT_TRUE(panel.text().contains(line)) << line << ": " << panel.text().toStdString();
   }
+  panel.showRules({}, std::array{ -0.0003, 0.0004, -0.0 });
+  EXPECT_EQ(panel.text().count(": 0.0 % of the force"), 3) << panel.text().toStdString();
   const Rule rule{ "depth", "-", 2.0, 1.0, "too deep" };
   panel.showRules(std::span(&rule, 1));
   EXPECT_FALSE(panel.text().contains("nodule"));
