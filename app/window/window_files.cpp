@@ -76,6 +76,10 @@ void Window::addOpening(QMenu& file)
     tr("&Open…"), this,
     [this]
     {
+      if (!isFree())
+      {
+        return;
+      }
       openFiles(QFileDialog::getOpenFileNames(this, tr("Open"), {},
         tr("Surfaces, images, scenes, places, paths, organ files (*.stl *.obj *.ply *.off *.vtk "
            "*.vtp *.vtu %1 *.json *.fcsv *.csv *.organ);;All files (*)")
@@ -86,7 +90,8 @@ void Window::addOpening(QMenu& file)
   file.addAction(tr("Open &DICOM folder…"), this,
     [this]
     {
-      const QString folder = QFileDialog::getExistingDirectory(this, tr("Open DICOM folder"));
+      const QString folder =
+        isFree() ? QFileDialog::getExistingDirectory(this, tr("Open DICOM folder")) : QString();
       if (!folder.isEmpty())
       {
         openFile(folder);
@@ -95,8 +100,9 @@ void Window::addOpening(QMenu& file)
   file.addAction(tr("&Load presses…"), this,
     [this]
     {
-      const QString folder =
-        QFileDialog::getExistingDirectory(this, tr("Load presses of an exported folder"));
+      const QString folder = isFree()
+        ? QFileDialog::getExistingDirectory(this, tr("Load presses of an exported folder"))
+        : QString();
       if (!folder.isEmpty())
       {
         loadPresses(folder);
@@ -117,7 +123,7 @@ void Window::makeFileMenu()
     return file->addAction(entry, this,
       [=, this]
       {
-        const bool mayAsk = !isFilmed || attempt([this] { (void)filmed(); });
+        const bool mayAsk = !isFilmed || (isFree() && attempt([this] { (void)filmed(); }));
         const QString name =
           mayAsk ? QFileDialog::getSaveFileName(this, title, suggested, kinds) : QString();
         if (!name.isEmpty())
@@ -147,7 +153,7 @@ void Window::makeFileMenu()
     [this]
     {
       FolderDialog dialog(tr("Export data into"), "palp_export", this);
-      if (dialog.exec() == QDialog::Accepted)
+      if (isFree() && dialog.exec() == QDialog::Accepted)
       {
         exportData(dialog.folder());
       }

@@ -1,6 +1,7 @@
 #include "app/folder/autosave.h"
 #include "app/panels/validity_panel.h"
 #include "haptics/surface/closest_point.h"
+#include "tests/app/dialog_closer.h"
 #include "tests/app/window/window_rig.h"
 
 #include <QImage>
@@ -172,6 +173,22 @@ TEST_F(TrainingTest, TellsOfNoNoduleBeforeItIsGraded)
   EXPECT_TRUE(told().contains("0 of 3")) << told().toStdString();
   pressAt(place);
   EXPECT_TRUE(QTest::qWaitFor([&] { return rules().contains("nodule"); }, kPatience));
+}
+
+TEST_F(TrainingTest, RefusesWhatTheSearchForbidsBeforeItAsksForAFile)
+{
+  start("4");
+  pressAt(above(0));
+  const test::DialogCloser closer;
+  for (const char* name : { "exportAction", "movieAction", "turntableAction", "openAction" })
+  {
+    window_->findChild<QAction*>(name)->trigger();
+    EXPECT_EQ(closer.count(), 0) << name;
+    EXPECT_TRUE(said().contains("finish it first")) << said().toStdString();
+  }
+  window_->findChild<QAction*>("gradeAction")->trigger();
+  window_->findChild<QAction*>("exportAction")->trigger();
+  EXPECT_EQ(closer.count(), 1);
 }
 
 TEST_F(TrainingTest, SaysWhatIsMissing)
