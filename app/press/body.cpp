@@ -1,6 +1,7 @@
 #include "app/press/body.h"
 
 #include "app/program/progress_line.h"
+#include "app/stiffness/placed_map.h"
 #include "app/stiffness/stiffness_text.h"
 #include "app/supports/organ_seal.h"
 #include "app/supports/support_text.h"
@@ -71,26 +72,6 @@ std::string describe(const Deviation& apart, std::size_t points, bool isOther)
        << units::toMillimeters(apart.largest) << " mm (RMS "
        << units::toMillimeters(apart.rootMeanSquare) << " mm) from the surface shown";
   return note.str();
-}
-
-// In the scene, of the body in its file's frame. What several say of a place, the first of them
-// does.
-TissueMap placedMap(
-  const MeshSource& source, std::span<const Eigen::Vector3d> points, TissueMap before)
-{
-  const Eigen::Isometry3d toFile = source.frame().inverse();
-  Eigen::AlignedBox3d box = boxAbout(points);
-  constexpr double kMargin = 0.01; // [m] beside the body, for what lies along its border
-  // a formula need not make sense beside the body
-  const double margin = source.stiffness.kind == StiffnessSource::Kind::Formula ? 0.0 : kMargin;
-  box.extend(box.min() - Eigen::Vector3d::Constant(margin));
-  box.extend(box.max() + Eigen::Vector3d::Constant(margin));
-  return [map = tissueMapOf(source.stiffness, source.unit, box), before = std::move(before),
-           toFile](const Eigen::Vector3d& position, double young)
-  {
-    const double known = before ? before(position, young) : std::nan("");
-    return std::isnan(known) ? map(toFile * position, young) : known;
-  };
 }
 
 // in the scene, of the only surface of a body; null: it has none
@@ -335,13 +316,27 @@ void feelTissue(Scene& scene, const SceneBody& body)
   {
     throw Error(error.code(), body.name + ": " + error.what());
   }
-  if (body.stiffness)
+  LawSettings settings = own;
+  settings.thickness = settings.thickness && scene.series == nullptr; // else it is told twice
+  scene.stiffness = feltStiffness(body, ForceLaw(law.tip(), law.material(), settings));
+}
+
+std::shared_ptr<const StiffnessField> feltStiffness(const SceneBody& body, const ForceLaw& law)
+{
+  if (!body.stiffness)
   {
-    LawSettings settings = own;
-    settings.thickness = settings.thickness && scene.series == nullptr; // else it is told twice
-    scene.stiffness = embedStiffness(*body.haptic, ForceLaw(law.tip(), law.material(), settings),
+    return nullptr;
+  }
+  try
+  {
+    return embedStiffness(*body.haptic, law,
       [&map = body.stiffness, young = law.material().youngModulus](const Eigen::Vector3d& position)
       { return map(position, young); });
+  }
+  catch (const Error& error)
+  {
+    throw Error(
+      error.code(), error.what() + labelsWithoutTissue(body.sources, body.haptic->points()));
   }
 }
 

@@ -84,4 +84,9 @@ void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& 
 /// @throws Error  as embedNodules, embedStiffness and ForceLaw::checkBody
 void feelTissue(Scene& scene, const SceneBody& body);
 
+/// The stiffness of a body with a map, as a law feels it; null: it has none.
+/// @throws Error  as embedStiffness, naming labels in the body that have no tissue
+[[nodiscard]] std::shared_ptr<const StiffnessField> feltStiffness(
+  const SceneBody& body, const ForceLaw& law);
+
 } // namespace palp

@@ -70,12 +70,26 @@ FileValues valuesIn(const std::filesystem::path& file, UnitChoice unit, const st
   return *std::move(values);
 }
 
-ModulusGrid gridOf(const FileValues& file, std::vector<float> moduli)
+Eigen::Affine3d toSpaceOf(const FileValues& file)
 {
   Eigen::Affine3d toSpace = Eigen::Affine3d::Identity();
   toSpace.affine() =
     Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(file.toSpace.data());
-  return { toSpace.inverse(), file.voxels, std::move(moduli) };
+  return toSpace;
+}
+
+// of a voxel in the image
+Eigen::Vector3d placeOf(const FileValues& file, std::size_t voxel)
+{
+  const auto columns = static_cast<std::size_t>(file.voxels[0]);
+  const auto rows = static_cast<std::size_t>(file.voxels[1]);
+  return { static_cast<double>(voxel % columns), static_cast<double>(voxel / columns % rows),
+    static_cast<double>(voxel / columns / rows) };
+}
+
+ModulusGrid gridOf(const FileValues& file, std::vector<float> moduli)
+{
+  return { toSpaceOf(file).inverse(), file.voxels, std::move(moduli) };
 }
 
 // in Pa
@@ -137,6 +151,33 @@ TissueMap mapOfLabels(
   }
   const auto grid = std::make_shared<const ModulusGrid>(gridOf(image, std::move(moduli)));
   return [grid](const Eigen::Vector3d& position, double) { return grid->nearest(position); };
+}
+
+std::string otherLabels(const std::filesystem::path& file, UnitChoice unit,
+  std::span<const LabelModulus> labels, const Eigen::AlignedBox3d& box)
+{
+  const FileValues image = valuesIn(file, unit, "");
+  const std::map<float, double> named = youngByValue(file, image, labels);
+  const Eigen::Affine3d toSpace = toSpaceOf(image);
+  std::set<float> others;
+  for (std::size_t i = 0; i < image.values.size(); ++i)
+  {
+    const float value = image.values[i];
+    const bool isOther = value != 0.0F && !named.contains(value) && !others.contains(value);
+    if (isOther && box.contains(toSpace * placeOf(image, i)))
+    {
+      others.insert(value);
+    }
+  }
+  std::string text;
+  for (const float value : others)
+  {
+    const auto name = std::ranges::find_if(
+      image.names, [&](const LabelName& one) { return static_cast<float>(one.value) == value; });
+    text += (text.empty() ? "label " : ", label ") + shortest(value) +
+      (name == image.names.end() ? "" : " (" + printable(name->name) + ")");
+  }
+  return text;
 }
 
 TissueMap mapOfImage(const std::filesystem::path& file, UnitChoice unit)

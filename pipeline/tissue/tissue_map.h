@@ -30,6 +30,12 @@ struct LabelModulus
 [[nodiscard]] TissueMap mapOfLabels(
   const std::filesystem::path& file, UnitChoice unit, std::span<const LabelModulus> labels);
 
+/// The labels in a box that are not named, but 0, as in `label 2 (tumor), label 5`.
+/// @param box     in the frame of the file [m]
+/// @throws Error  as mapOfLabels
+[[nodiscard]] std::string otherLabels(const std::filesystem::path& file, UnitChoice unit,
+  std::span<const LabelModulus> labels, const Eigen::AlignedBox3d& box);
+
 /// By an image in kPa, as of elastography; 0 where nothing was measured.
 /// @throws Error  BadFile: unreadable, a value that is negative or no number, or none above 0
 [[nodiscard]] TissueMap mapOfImage(const std::filesystem::path& file, UnitChoice unit);

@@ -7,7 +7,6 @@
 #include "calibration/organ/organ_motion_modes.h"
 #include "calibration/organ/organ_places.h"
 #include "calibration/tables/organ_table.h"
-#include "haptics/contact/embed_stiffness.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/units.h"
@@ -114,8 +113,7 @@ void checkMap(const SceneBody& body, const OrganFilePlan& plan)
       { .mode = LawMode::Corrected,
         .constitution = ConstitutiveModel::Linear,
         .thickness = false });
-    (void)embedStiffness(*body.haptic, law,
-      [&](const Eigen::Vector3d& place) { return body.stiffness(place, plan.young); });
+    (void)feltStiffness(body, law);
   }
 }
 

@@ -81,6 +81,15 @@ protected:
   }
 };
 
+// all but the sheet on top
+TEST_F(StiffnessFiles, NamesTheLabelThatHasNoTissue)
+{
+  const Finished refused = pressed("labels:" + labels() + ":2=150kPa");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("; in labels.mha no tissue is given to label 1\n"), std::string::npos)
+    << refused.err;
+}
+
 TEST_F(StiffnessFiles, LabelsImagesAndFormulasSayTheSame)
 {
   const double expected = test::printedTable(palp("force --tip sphere:10mm --depth 6:6:1mm" +
@@ -195,6 +204,7 @@ TEST_F(StiffnessFiles, RefusesInASentence)
   const Finished elsewhere = pressed("labels:" + labels(400.0) + ":1=50kPa,2=150kPa");
   EXPECT_EQ(elsewhere.code, 2);
   EXPECT_NE(elsewhere.err.find("in the frame of the body"), std::string::npos) << elsewhere.err;
+  EXPECT_EQ(elsewhere.err.find("no tissue is given"), std::string::npos) << elsewhere.err;
 }
 
 } // namespace
