@@ -39,6 +39,14 @@ template <typename Rows>
   return (one[0] * others.row(0) + one[1] * others.row(1) + one[2] * others.row(2)).eval();
 }
 
+// smoothStep() of each lane, in single precision
+template <typename Row>
+[[gnu::always_inline]] inline auto smoothStepOf(const Row& row) noexcept
+{
+  const auto within = row.max(0.0F).min(1.0F).eval();
+  return (within * within * (3.0F - 2.0F * within)).eval();
+}
+
 // of what is never negative, and spread over powers of ten beside an edge
 float ratioOf(float wanted, float blend)
 {
@@ -205,9 +213,8 @@ ComplianceField::Lanes<kSpots> ComplianceField::forNear(
     const Lanes<kSpots> rest = (1.0F - perReach_ * lengthsOf(away)).max(0.0F);
     constexpr float kTurns = 1.0F / (kFacing - kAskew);
     const Lanes<kSpots> facing =
-      (kTurns * (along(place.normal, spots.normals) - kAskew)).max(0.0F).min(1.0F);
-    const Lanes<kSpots> weight =
-      facing * facing * (3.0F - 2.0F * facing) * rest.square().square() * (5.0F - 4.0F * rest);
+      smoothStepOf(kTurns * (along(place.normal, spots.normals) - kAskew));
+    const Lanes<kSpots> weight = facing * rest.square().square() * (5.0F - 4.0F * rest);
     all += weight;
     visit(place, away, weight);
   }
@@ -257,9 +264,9 @@ ComplianceField::Rows<3, kSpots> ComplianceField::toFace(
 {
   const auto faces = told.template bottomRows<3>();
   const auto over = static_cast<float>(kOver * cell_);
-  const Lanes<kSpots> flat = (1.0F - told.row(kAbove) / over).max(0.0F).min(1.0F);
+  const Lanes<kSpots> flat = smoothStepOf(1.0F - told.row(kAbove) / over);
   const Rows<3, kSpots> leaning = (spots.normals - faces.rowwise() / lengthsOf(faces)).rowwise() *
-    (flat * flat * (3.0F - 2.0F * flat) * told.row(kPart) * spots.heights);
+    (flat * told.row(kPart) * spots.heights);
   // beyond an edge no further than places reach
   const auto most = static_cast<float>(cell_);
   return leaning.rowwise() / (1.0F + (lengthsOf(leaning) / most).square()).sqrt();
