@@ -16,7 +16,6 @@ constexpr double kSmoothed = 0.63; // [-] of the contact's radius
 constexpr double kFewest = 1.8;    // [-] facet lengths; below 1.5 the facets come through
 constexpr double kMost = 6.5;      // [-] edge lengths
 constexpr double kRounded = 0.4; // [-] of the fewest: corners of that rule, whose slope is a force
-constexpr double kEnds = 0.2;    // [-] of the least and the most: the same of a tool without a nose
 
 } // namespace
 
@@ -25,28 +24,13 @@ BallRule::BallRule(const Tip& tip, double edgeLength, double facetLength) noexce
   , edge_(edgeLength)
   , facet_(facetLength)
 {
-  if (const double flat = flatRadius(tip); flat > 0.0)
-  {
-    least_ = 0.25 * flat;
-    most_ = flat;
-    return;
-  }
-  const auto* cone = std::get_if<ConeTip>(&tip);
-  steepness_ = cone != nullptr ? std::min(std::tan(cone->halfAngle), 1.0) : 1.0;
-  most_ = baseRadius(tip);
 }
 
 Sloped BallRule::contactRadius(double height) const noexcept
 {
-  if (nose_ > 0.0)
-  {
-    const double outside = std::max(0.0, height);
-    const double radius = std::sqrt(std::max(0.0, nose_ * nose_ - outside * outside));
-    return { radius, radius > 0.0 ? -outside / radius : 0.0 };
-  }
-  const Sloped steep{ steepness_ * std::abs(height), std::copysign(steepness_, height) };
-  const Sloped radius = smoothMax(steep, { least_ }, kEnds * least_);
-  return smoothMin(radius, { most_ }, kEnds * most_);
+  const double outside = std::max(0.0, height);
+  const double radius = std::sqrt(std::max(0.0, nose_ * nose_ - outside * outside));
+  return { radius, radius > 0.0 ? -outside / radius : 0.0 };
 }
 
 BallSize BallRule::operator()(double height) const noexcept

@@ -6,14 +6,14 @@
 namespace palp
 {
 
-/// A ball about a tool's nose; slopes are over the height of the nose.
+/// A ball about a tool's round nose; slopes are over the height of the nose.
 struct BallSize
 {
   Sloped smoothing; ///< radius over which the surface is smoothed [m]
   Sloped squared;   ///< Q, the square of its own radius [m^2]
 };
 
-/// How large a ball about a tool's nose tells how high the surface is below it.
+/// How large a ball about a tool's round nose tells how high the surface is below it.
 class BallRule
 {
 public:
@@ -26,8 +26,7 @@ public:
     return nose_;
   }
 
-  /// Radius of the contact, as the undeformed surface cuts it out of the tool; a sharp or flat end
-  /// is inside the body, where a wider ball would reach a second wall long before the tool does.
+  /// Radius of the contact, as the undeformed surface cuts it out of the ball.
   /// @param height  of the nose's center over the surface, negative inside [m]
   [[nodiscard]] Sloped contactRadius(double height) const noexcept;
 
@@ -37,9 +36,6 @@ private:
   double nose_;
   double edge_;
   double facet_;
-  double steepness_ = 0.5; // of a sharp or flat end: contact by height, within bounds
-  double least_ = 0.0;
-  double most_ = 0.0;
 };
 
 } // namespace palp

@@ -58,7 +58,7 @@ Rule facetRule(const Surface& surface, const Tip& tip, const Contact& contact) n
   Rule rule{ "facets", "-", 0.0, 1.0,
     "triangles that stand for what is round are smoothed over an edge beside: up to 20 % too stiff "
     "2 mm from one by those of 4 mm; a finer mesh tells it" };
-  if (contact.touching())
+  if (contact.touching() && noseRadius(tip) > 0.0)
   {
     const double height = noseRadius(tip) - contact.depth;
     const double smoothed =

@@ -1,7 +1,10 @@
 #include "haptics/contact/find_contact.h"
 
 #include "haptics/contact/ball_rule.h"
+#include "haptics/contact/contact_shape.h"
 #include "haptics/contact/height_over.h"
+#include "haptics/contact/overlap/immersion.h"
+#include "haptics/contact/overlap/overlap.h"
 #include "haptics/contact/paper_contact.h"
 #include "haptics/contact/patch.h"
 #include "haptics/numerics/smooth_step.h"
@@ -10,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace palp
@@ -21,17 +25,11 @@ constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which 
 constexpr double kGradual = 0.2;   // [-] where that begins, of the corner of this rule
 constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear majority
 constexpr double kRounding = 1e-9; // [-]
-constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a part of the contact
-constexpr double kFinest = 2.0;    // [-] such sums across the least contact
 constexpr double kEntry = 0.4;     // [-] 1 / power by which a spread grows as an edge comes in
 constexpr double kSudden = 4.0;    // [-] most of a slope where the far wall of a lobe comes in
-constexpr double kOut = 4.0; // [-] 1 / contact sizes over the surface: all of a nose is outside
-constexpr double kShallow = 0.75; // [-] contact sizes inside, to which the nearest point counts
-constexpr double kFront = 0.1;    // [-] cosine over which the back of a sheet becomes its front
+constexpr double kShallow = 0.75;  // [-] contact sizes inside, to which the nearest point counts
+constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
 constexpr double kOff = 1e-7; // [-] tip radii off the surface: in it, rounding would say which side
-constexpr double kCorner = 0.4;   // [-] of the least reach: the corner where the contact is wider
-constexpr double kTilting = 0.15; // [-] of a tool's size: a body turns by less than 1 rad in it
-constexpr double kFlat = 0.05;    // [rad] of tilt over which a flat end comes to stand on its rim
 
 // the surface about the nearest point, smoothed as far as the contact and the mesh allow
 struct Neighborhood
@@ -62,11 +60,10 @@ Sloped turningOf(double distance, const Sloped& smoothing) noexcept
               : -side * smoothing.slope / squared };
 }
 
-// less where a center is so deep inside that the nearest point leaps from wall to wall; what has no
-// round nose is in the surface from the first touch on
-double shallowPart(const BallRule& rule, double distance, double smoothing) noexcept
+// less where a center is so deep inside that the nearest point leaps from wall to wall
+double shallowPart(double distance, double smoothing) noexcept
 {
-  return rule.nose() > 0.0 ? std::clamp(2.0 + distance / (kShallow * smoothing), 0.0, 1.0) : 0.0;
+  return std::clamp(2.0 + distance / (kShallow * smoothing), 0.0, 1.0);
 }
 
 // @param from  the nearest point to the position, whatever side it is on [m]
@@ -82,7 +79,7 @@ Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vec
   // from here on they are over the place, with the ball that belongs to it
   const Eigen::Vector3d mean = patch.normal.normalized();
   const Eigen::Vector3d away = mean +
-    shallowPart(rule, distance, size.smoothing.value) *
+    shallowPart(distance, size.smoothing.value) *
       (std::copysign(1.0, distance) * from.normalized() - mean);
   const PatchTurns& turns = patch.turns;
   patch.fading -= turning.slope * turns.moment * away;
@@ -92,12 +89,6 @@ Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vec
   patch.slopes.weight +=
     (size.squared.slope * patch.slopes.area + turning.slope * turns.weight) * away;
   return { distance, away, size, ball, patch };
-}
-
-// of the normals about their mean: what that is shorter than they
-double spreadOf(const Patch& patch) noexcept
-{
-  return 1.0 - patch.normal.norm() / patch.weight;
 }
 
 // whether the one nearest triangle, a fold perhaps, says inside while those about it say outside
@@ -116,13 +107,6 @@ double heldPart(const Neighborhood& here) noexcept
   return smoothing > 0.0 ? smoothStep(held / (smoothing * smoothing)) : 1.0;
 }
 
-// How the length of the mean normal by the weight changes as a place moves [1/m].
-Eigen::Vector3d shareSlope(const Patch& patch) noexcept
-{
-  const Eigen::Vector3d length = patch.slopes.normal.transpose() * patch.normal.normalized();
-  return (length - (1.0 - spreadOf(patch)) * patch.slopes.weight) / patch.weight;
-}
-
 // A part of something, and how it changes as a place moves.
 struct Part
 {
@@ -133,8 +117,8 @@ struct Part
 // Part of the curvature that is below the tool, where a coarse mesh tells it over a wider ball: a
 // smooth body's normals spread by twice as much as from where all of it counts. They are compared
 // over the wider ball, of radius wide [m] by the height, so that an edge comes in gradually.
-Part curvedPart(const Neighborhood& here, const Contact& contact, const BallRule& rule,
-  const Sloped& wide, const Eigen::Vector3d& heightSlope) noexcept
+Part curvedPart(const Neighborhood& here, const NormalSum& normals, const Contact& contact,
+  const BallRule& rule, const Sloped& wide, const Eigen::Vector3d& heightSlope) noexcept
 {
   const auto [smoothing, growth] = here.size.smoothing;
   const Sloped own = rule.contactRadius(here.distance);
@@ -143,7 +127,7 @@ Part curvedPart(const Neighborhood& here, const Contact& contact, const BallRule
   const double apart = contact.curvatureSpread;
   const double squares = mean * mean + apart * apart;
   const double ofBody = squares * across * across / 12.0;
-  const double spread = std::max(kRounding, spreadOf(here.patch));
+  const double spread = std::max(kRounding, normals.spread());
   if (!(spread < ofBody))
   {
     return {};
@@ -154,52 +138,8 @@ Part curvedPart(const Neighborhood& here, const Contact& contact, const BallRule
   const Eigen::Vector3d rounder =
     (mean * contact.curvatureSlope + apart * contact.spreadSlope) / squares;
   return { smoothStep(entered),
-    -6.0 * kEntry * entered * entered * (1.0 - entered) *
-      shallowPart(rule, here.distance, smoothing) *
-      (shareSlope(here.patch) / spread + 2.0 * (rounder + wider)) };
-}
-
-// How far the lowest point of a flat end is below its middle, over the tilt; with no corner where
-// it lies flat.
-Sloped rimOf(const Tip& tip, double tilt) noexcept
-{
-  const double sine = std::sin(tilt);
-  const double root = std::hypot(sine, kFlat);
-  return { flatRadius(tip) * (root - kFlat), flatRadius(tip) * sine * std::cos(tilt) / root };
-}
-
-// What of the body counts as the shape of the contact, and how that changes as the tool moves: with
-// the place, with the radius as the height changes, and with the normal, which turns with the body.
-// height: over a flat body; returns the radius that it is averaged over, by the height
-Sloped measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ToolPose& pose,
-  const BallRule& rule, const Neighborhood& here, const Height& height, CurvatureOf of) noexcept
-{
-  const double grain = kGrain * (rule.nose() + flatRadius(tip));
-  const double least = std::max(surface.shape().finest(), kFinest * grain);
-  const Sloped wide = smoothMax(rule.contactRadius(height.value), { least }, kCorner * least);
-  const double reach = std::sqrt(height.value * height.value + wide.value * wide.value);
-  const double growth = (height.value + wide.value * wide.slope) / reach;
-  const Eigen::Vector3d normal = here.patch.normal.normalized();
-  const LocalShape shape = surface.shape()(here.ball.center, reach, normal, grain, of);
-  const Eigen::Matrix3d turning = here.patch.slopes.normal.transpose() / here.patch.normal.norm();
-  const auto turn = [&](const Eigen::Vector3d& across)
-  { return Eigen::Vector3d(turning * across); };
-  const auto slopeOf = [&](const LocalShape::Slope& one)
-  { return Eigen::Vector3d(one.place + one.radius * growth * height.slope + turn(one.normal)); };
-  contact.surfaceCurvature = shape.meanCurvature;
-  contact.curvatureSpread = shape.curvatureSpread;
-  contact.thickness = shape.thickness;
-  contact.hollow = shape.hollow;
-  contact.curvatureSlope = slopeOf(shape.meanCurvatureSlope);
-  contact.spreadSlope = slopeOf(shape.curvatureSpreadSlope);
-  contact.thicknessSlope = slopeOf(shape.thicknessSlope);
-  contact.bodyNormal = normal;
-  contact.turning = turning.transpose() - normal * (turning * normal).transpose();
-  const Eigen::Vector3d lean = pose.axis - pose.axis.dot(normal) * normal;
-  const Eigen::Vector3d tilting = turn(lean) / std::max(lean.norm(), 1e-9);
-  contact.tiltSlope =
-    tilting / std::hypot(1.0, (kTilting * baseRadius(tip) * tilting).squaredNorm());
-  return wide;
+    -6.0 * kEntry * entered * entered * (1.0 - entered) * shallowPart(here.distance, smoothing) *
+      (normals.shareSlope() / spread + 2.0 * (rounder + wider)) };
 }
 
 std::optional<Neighborhood> lookBelow(
@@ -240,7 +180,7 @@ std::optional<Neighborhood> lookBelow(
   return here;
 }
 
-Contact exactContact(
+Contact ballContact(
   const Surface& surface, const Tip& tip, const ToolPose& pose, CurvatureOf of) noexcept
 {
   const BallRule rule(tip, surface.edgeLength(), surface.facetLength());
@@ -250,24 +190,27 @@ Contact exactContact(
     return {}; // by less than rounding, or between lobes that face each other
   }
   const Eigen::Vector3d& position = here->ball.center;
-  const double share = 1.0 - spreadOf(here->patch);
+  const PatchSlopes& slopes = here->patch.slopes;
+  const NormalSum normals{ here->patch.normal, slopes.normal, here->patch.weight, slopes.weight };
+  const double share = 1.0 - normals.spread();
   Contact contact;
   contact.normalSpread = std::acos(std::min(1.0, share));
   const HeightOver heightOver(here->patch, rule, here->distance, here->size);
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
-  const Sloped wide = measureShape(contact, surface, tip, pose, rule, *here, flat, of);
-  const Part curved = curvedPart(*here, contact, rule, wide, flat.slope);
+  const Sloped wide = shapeRadius(surface, tip, rule.contactRadius(flat.value));
+  const double reach = std::hypot(flat.value, wide.value);
+  measureShape(contact, surface, tip, pose, normals,
+    { position, reach, (flat.value + wide.value * wide.slope) / reach * flat.slope }, of);
+  const Part curved = curvedPart(*here, normals, contact, rule, wide, flat.slope);
   contact.curvedPart = curved.value;
   const Height height = heightOver(flat.value, curved.value * contact.surfaceCurvature,
     curved.value * contact.curvatureSlope + contact.surfaceCurvature * curved.slope);
   contact.height = height.value;
   contact.rising = height.slope;
   contact.relief = height.value - here->distance;
-  const Eigen::Vector3d upward = height.slope.normalized();
-  const double facing = -pose.axis.dot(upward);
+  const double facing = -pose.axis.dot(height.slope.normalized());
   contact.tilt = std::acos(std::clamp(facing, -1.0, 1.0));
-  const Sloped rim = rimOf(tip, contact.tilt);
-  const double depth = rule.nose() + rim.value + here->raised - height.value;
+  const double depth = rule.nose() + here->raised - height.value;
   Sloped part = smoothMin({ share / kCoherent, 1.0 / kCoherent }, { 1.0 }, kGradual);
   if (!surface.closed())
   {
@@ -278,20 +221,81 @@ Contact exactContact(
   Eigen::Vector3d outward = part.value * height.slope;
   if (part.slope > 0.0)
   {
-    const Eigen::Vector3d coming = part.slope * depth * shareSlope(here->patch);
-    // what has no round nose is in the body itself, and would be pushed out through a thin one
-    const double felt = rule.nose() > 0.0
-      ? std::min(1.0, kSudden / coming.norm())
-      : std::clamp(kOut * here->distance / here->size.smoothing.value, 0.0, 1.0);
-    outward -= felt * coming;
+    const Eigen::Vector3d coming = part.slope * depth * normals.shareSlope();
+    outward -= std::min(1.0, kSudden / coming.norm()) * coming;
   }
   contact.center = position - height.value * outward.normalized();
-  outward -= part.value * rim.slope * contact.tiltSlope;
   contact.slope = outward.norm();
   contact.normal = outward / contact.slope;
   contact.triangle = here->triangle;
-  contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
-    surface.edgeDistance(contact.center, contact.triangle));
+  return contact;
+}
+
+// What has no round nose is as deep as a smooth body would be that has as much in common with it.
+Contact overlapContact(
+  const Surface& surface, const Tip& tip, const ToolPose& pose, CurvatureOf of) noexcept
+{
+  const ToolSolid solid(tip);
+  const ToolFrame frame(pose);
+  const auto& axes = frame.axes;
+  const Overlap all = overlapOf(surface, solid, frame);
+  if (!(all.volume > 0.0 && all.weight > 0.0))
+  {
+    return {};
+  }
+  const NormalSum normals{ axes * all.normal, axes * all.normalSlope * axes.transpose(), all.weight,
+    axes * all.weightSlope };
+  const Eigen::Vector3d normal = normals.value.normalized();
+  const Eigen::Vector3d upward = all.normal.normalized(); // the same, as the tool sees it
+  Contact contact;
+  contact.turning =
+    (normals.slope - normal * (normal.transpose() * normals.slope)) / normals.value.norm();
+  const auto turned = [&](const Eigen::Vector3d& byNormal)
+  { return Eigen::Vector3d(contact.turning.transpose() * (axes * byNormal)); };
+  const Eigen::Vector3d falling = axes * all.area;
+  const Immersion flat = immersionOf(solid, upward, all.volume, all.volume / all.weight, 0.0);
+  const Sloped wide = shapeRadius(surface, tip, solid.radiusAt(flat.depth));
+  const Eigen::Vector3d place = all.place / all.weight;
+  const ShapeBall ball{ frame.apex + axes * place, wide.value,
+    wide.slope * (turned(flat.byNormal) - flat.byVolume * falling),
+    axes * (all.placeSlope - place * all.weightSlope.transpose()) / all.weight * axes.transpose() };
+  measureShape(contact, surface, tip, pose, normals, ball, CurvatureOf::Faces);
+  const double round = contact.surfaceCurvature; // without edges
+  const Immersion deep = immersionOf(solid, upward, all.volume, flat.depth, round);
+  contact.height = -deep.depth;
+  contact.rising =
+    deep.byVolume * falling - deep.byCurvature * contact.curvatureSlope - turned(deep.byNormal);
+  if (of == CurvatureOf::All)
+  {
+    measureShape(contact, surface, tip, pose, normals, ball, of);
+  }
+  contact.normalSpread = std::acos(std::min(1.0, 1.0 - normals.spread()));
+  contact.tilt = std::acos(std::clamp(upward.z(), -1.0, 1.0));
+  const double front = surface.closed() ? 1.0 : std::min(1.0, upward.z() / kFront);
+  contact.depth = front * (deep.depth + deep.rim);
+  const Eigen::Vector3d outward = front * (contact.rising - turned(deep.rimByNormal));
+  contact.slope = outward.norm();
+  contact.normal = outward / contact.slope;
+  // the middle of what is in the tool, from that of a plane below the apex, and up to a round top
+  const Eigen::Vector3d foot =
+    axes * (place - deep.aside) + 0.25 / std::numbers::pi * deep.area * round * normal;
+  contact.center = frame.apex + foot;
+  contact.relief = foot.dot(normal) - deep.depth;
+  contact.triangle =
+    findClosestPoint(surface, contact.center, std::numeric_limits<double>::infinity()).triangle;
+  return contact;
+}
+
+Contact exactContact(
+  const Surface& surface, const Tip& tip, const ToolPose& pose, CurvatureOf of) noexcept
+{
+  Contact contact = noseRadius(tip) > 0.0 ? ballContact(surface, tip, pose, of)
+                                          : overlapContact(surface, tip, pose, of);
+  if (contact.touching())
+  {
+    contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
+      surface.edgeDistance(contact.center, contact.triangle));
+  }
   return contact;
 }
 
@@ -304,8 +308,13 @@ Reach reachOf(const Tip& tip, const ToolPose& pose, ContactRule rule) noexcept
     const double middle = 0.5 * paperLength(tip);
     return { pose.apex - middle * pose.axis, std::hypot(middle, baseRadius(tip)) };
   }
-  const double nose = noseRadius(tip);
-  return { pose.apex - nose * pose.axis, nose + flatRadius(tip) };
+  if (const double nose = noseRadius(tip); nose > 0.0)
+  {
+    return { pose.apex - nose * pose.axis, nose };
+  }
+  const ToolSolid solid(tip);
+  const double middle = 0.5 * solid.top();
+  return { pose.apex - middle * pose.axis, std::hypot(middle, solid.outerRadius()) };
 }
 
 Contact findContact(const Surface& surface, const Tip& tip, const ToolPose& pose, ContactRule rule,

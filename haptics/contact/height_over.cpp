@@ -1,6 +1,7 @@
 #include "haptics/contact/height_over.h"
 
 #include "haptics/contact/lens.h"
+#include "haptics/numerics/leveled.h"
 #include "haptics/numerics/smooth_step.h"
 
 #include <algorithm>
@@ -14,31 +15,11 @@ namespace
 
 constexpr double kSmallest = 1e-3;   // [-] of Q: a smaller contact leaves nothing of the digits
 constexpr double kSmall = 4e-3;      // [-] from which on all of the moment counts
-constexpr double kRound = 0.5;       // [-] 1 / ball: curvature to which it is that of the body,
-constexpr double kRoundest = 0.4;    // [-] and by how much it levels off beyond
 constexpr double kFarthest = 0.9999; // [-] of the ball's radius
 constexpr double kSteepest = 0.2;    // [-] of what a plane's moment loses
 constexpr double kFastest = 2.0;     // [-] by which a height changes as the ball moves
 constexpr int kSteps = 30;           // of Newton's method; three are usual
 constexpr double kClose = 1e-11;     // [m]
-
-// a curvature so that the body stays larger than the ball
-struct Leveled
-{
-  double value;  // [1/m]
-  double slope;  // over the curvature [-]
-  double byBall; // over the ball's radius [1/m^2]
-};
-
-Leveled leveled(double curvature, double ball) noexcept
-{
-  const double size = std::abs(curvature);
-  const double beyond = std::max(0.0, size * ball - kRound) / kRoundest;
-  const double within = std::min(size, kRound / ball) + kRoundest / ball * beyond / (1.0 + beyond);
-  const double slope = 1.0 / ((1.0 + beyond) * (1.0 + beyond));
-  const double byBall = beyond > 0.0 ? (slope * size - within) / ball : 0.0;
-  return { std::copysign(within, curvature), slope, curvature < 0.0 ? -byBall : byBall };
-}
 
 } // namespace
 
@@ -113,7 +94,7 @@ Height HeightOver::operator()(
   const Lens own = lensOf(given_ + more, height, bent.value);
   const Eigen::Vector3d change = patch_->normal + patch_->fading +
     more * (patch_->area + patch_->volumeFading + 0.5 * more * patch_->rim) +
-    own.curvatureSlope * (bent.slope * curvatureSlope + bent.byBall * ballSlope_);
+    own.curvatureSlope * (bent.slope * curvatureSlope + bent.bySize * ballSlope_);
   // where the ball all but misses the body, or all but fills with it, no slope follows from a
   // moment
   const Eigen::Vector3d slope =

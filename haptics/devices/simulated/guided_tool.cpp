@@ -162,7 +162,8 @@ double GuidedTool::deepest(const Trial& trial) const noexcept
     return goal_->depth;
   }
   const BoxTree& tree = organOf(*world_, touch.organ).surface->tree();
-  return std::min(goal_->depth, 0.5 * rayExit(tree, contact.center, -contact.normal).distance);
+  const double below = rayExit(tree, contact.center, -contact.normal).distance;
+  return std::min(goal_->depth, 0.5 * std::min(below, contact.thickness));
 }
 
 bool GuidedTool::mayStay(const Trial& trial) const noexcept

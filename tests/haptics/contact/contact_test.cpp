@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <utility>
 #include <vector>
@@ -114,7 +115,7 @@ TEST(Contact, ATiltedProfileIsMetAsTheTipThatItSamples)
 }
 
 // none on a plane; on a ridge half of what its sides turn; on a ball that of a disc as wide as the
-// contact, with the weight of the sum: r / (sqrt(3) R0)
+// contact: r / (sqrt(2) R0)
 TEST(Contact, TellsHowFarTheNormalsBelowTheToolDiffer)
 {
   const auto spreadOn = [](test::Mesh mesh, const Eigen::Vector3d& apex, ContactRule rule)
@@ -132,8 +133,9 @@ TEST(Contact, TellsHowFarTheNormalsBelowTheToolDiffer)
     const double ridge = spreadOn(test::sheet(0.1, 201, roof), { 0.0, 1.3_mm, -4.0_mm }, rule);
     EXPECT_NEAR(ridge, 20.0_deg, rule == ContactRule::Exact ? 0.1_deg : 4.0_deg);
   }
+  const double circle = 2.0 / std::numbers::pi * 3.0; // of contact, of a cone of 45 degrees [mm]
   const double dome = spreadOn(test::ball(50.0_mm, 60), { 0.0, 0.0, 47.0_mm }, ContactRule::Exact);
-  EXPECT_NEAR(dome, 3.0 / 50.0 / std::sqrt(3.0), 0.2_deg);
+  EXPECT_NEAR(dome, circle / 50.0 / std::sqrt(2.0), 0.2_deg);
 }
 
 TEST(Contact, ApartIsNoContact)
@@ -310,7 +312,7 @@ TEST(Contact, PaperRuleSeesOnlyMeshPoints)
 }
 
 // a second wall, across from the first or beside it, does not make a tool deeper than its apex is,
-// and up to four fifths of the way to the middle it does not make it less deep either
+// nor less deep as long as all of it that is in the body is between the two
 TEST(Contact, ASecondWallAddsNothingToTheDepth)
 {
   const double half = 4.0_mm;
@@ -321,21 +323,18 @@ TEST(Contact, ASecondWallAddsNothingToTheDepth)
   {
     for (const double inward : { 30.0_mm, 4.0_mm, 3.0_mm, 2.2_mm, 1.0_mm, 0.5_mm })
     {
-      if (flatRadius(tip) > 0.0 && inward < 30.0_mm)
-      {
-        break; // the rim of a flat end that tilts is deeper
-      }
-      for (double depth = 0.1_mm; depth <= half; depth += 0.1_mm)
+      for (double depth = 0.1_mm; depth < 2.0 * half; depth += 0.1_mm)
       {
         const Eigen::Vector3d apex(60.0_mm - inward, 1.3_mm, -depth);
         const double reached = findContact(
           slab, tip, { .apex = apex, .axis = -Eigen::Vector3d::UnitZ() }, ContactRule::Exact)
                                  .depth;
-        const double nearest = std::min(depth, inward);
-        EXPECT_LE(reached, 1.03 * nearest) << tip.index() << " at " << apex.transpose();
-        if (nearest < 0.8 * std::min(half, std::max(depth, inward)))
+        const auto* cone = std::get_if<ConeTip>(&tip);
+        const double wide = cone != nullptr ? depth * std::tan(cone->halfAngle) : flatRadius(tip);
+        EXPECT_LE(reached, depth * (1.0 + 1e-9)) << tip.index() << " at " << apex.transpose();
+        if (1.01 * wide < inward) // its corners
         {
-          EXPECT_GE(reached, 0.97 * nearest) << tip.index() << " at " << apex.transpose();
+          EXPECT_NEAR(reached, depth, 1e-9) << tip.index() << " at " << apex.transpose();
         }
       }
     }

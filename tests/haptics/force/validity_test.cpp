@@ -123,7 +123,7 @@ TEST(Validity, SeesWhereTheFactorOfInclinationTurnsFast)
     }
   }
   EXPECT_LE(fastest, 0.005);
-  EXPECT_GE(worst, 0.04);
+  EXPECT_GE(worst, 3.0 * 0.005); // or it turned nowhere fast
   EXPECT_GE(fine, 50 * 150 * 9 / 10);
 }
 

@@ -291,7 +291,7 @@ TEST(DentSlide, APointThatStandsOutMovesOnUnderTheRim)
   expectSound(findings);
 }
 
-// across the edge of a block, where the nearest way out turns from the face to its side
+// towards the edge of a block, where the way out turns from the face to its side
 TEST(DentSlide, AConeCrossesAnEdgeByItsOwnSteps)
 {
   PressedBody block = pressedBody(
@@ -303,9 +303,11 @@ TEST(DentSlide, AConeCrossesAnEdgeByItsOwnSteps)
   {
     Presser presser(block, ConeTip{ 40.0_deg, 8.0_mm }, "paper", "paper");
     std::vector<float> before;
-    for (int i = 0; i <= 60; ++i)
+    const double first = 30.1_mm - depth;
+    const double last = first + 1.5_mm;
+    for (int i = 0; first + 0.02_mm * i <= last; ++i)
     {
-      presser.press(depth, 30.1_mm - depth + 0.02_mm * i, findings);
+      presser.press(depth, first + 0.02_mm * i, findings);
       const std::vector<float>& now = block.surface.displacement;
       for (std::size_t k = 0; k < before.size(); k += 3)
       {

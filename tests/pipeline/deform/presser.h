@@ -265,7 +265,9 @@ private:
       leaving += 0.01 * base_; // it may bend anywhere
     }
     const double slope = std::atan(std::max(1.0, tipSlope(law_.tip(), leaving)));
-    return std::tan(std::min(slope + now.contact.tilt, 89.0_deg));
+    // over the body, or over the plane in which it is drawn
+    const double drawn = std::acos(std::clamp(-now.pose.axis.dot(now.contact.normal), -1.0, 1.0));
+    return std::tan(std::min(slope + std::max(now.contact.tilt, drawn), 89.0_deg));
   }
 
   void lookForWalls(const Press& now, Findings& findings, const std::string& where) const

@@ -1,0 +1,61 @@
+#include "haptics/contact/contact_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kUpright = 1e-9; // [-]
+constexpr double kGrain = 0.25;   // [-] tip radii of the sums that stand for a part of the contact
+constexpr double kFinest = 2.0;   // [-] such sums across the least contact
+constexpr double kCorner = 0.4;   // [-] of the least reach: the corner where the contact is wider
+
+double grainOf(const Tip& tip) noexcept
+{
+  return kGrain * (noseRadius(tip) + flatRadius(tip));
+}
+
+} // namespace
+
+Eigen::Vector3d NormalSum::shareSlope() const noexcept
+{
+  const Eigen::Vector3d length = slope.transpose() * value.normalized();
+  return (length - (1.0 - spread()) * weightSlope) / weight;
+}
+
+Sloped shapeRadius(const Surface& surface, const Tip& tip, const Sloped& contact) noexcept
+{
+  const double least = std::max(surface.shape().finest(), kFinest * grainOf(tip));
+  return smoothMax(contact, { least }, kCorner * least);
+}
+
+void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ToolPose& pose,
+  const NormalSum& normals, const ShapeBall& ball, CurvatureOf of) noexcept
+{
+  const Eigen::Vector3d normal = normals.value.normalized();
+  const LocalShape shape = surface.shape()(ball.center, ball.radius, normal, grainOf(tip), of);
+  const Eigen::Matrix3d turning = normals.slope.transpose() / normals.value.norm();
+  const auto turn = [&](const Eigen::Vector3d& across)
+  { return Eigen::Vector3d(turning * across); };
+  const auto slopeOf = [&](const LocalShape::Slope& one)
+  {
+    return Eigen::Vector3d(
+      ball.moving.transpose() * one.place + one.radius * ball.widening + turn(one.normal));
+  };
+  contact.surfaceCurvature = shape.meanCurvature;
+  contact.curvatureSpread = shape.curvatureSpread;
+  contact.thickness = shape.thickness;
+  contact.hollow = shape.hollow;
+  contact.curvatureSlope = slopeOf(shape.meanCurvatureSlope);
+  contact.spreadSlope = slopeOf(shape.curvatureSpreadSlope);
+  contact.thicknessSlope = slopeOf(shape.thicknessSlope);
+  contact.bodyNormal = normal;
+  contact.turning = turning.transpose() - normal * (turning * normal).transpose();
+  const Eigen::Vector3d lean = pose.axis - pose.axis.dot(normal) * normal;
+  contact.tiltSlope = turn(lean) / std::max(lean.norm(), kUpright);
+}
+
+} // namespace palp

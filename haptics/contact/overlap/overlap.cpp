@@ -1,0 +1,212 @@
+#include "haptics/contact/overlap/overlap.h"
+
+#include "haptics/contact/overlap/piece.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kInscribed =
+  0.99;                         // [-] of a cross section's outer radius: less than its inner one
+constexpr double kAlong = 1e-3; // [-] sine between a triangle and a side that it lies along
+
+using Layer = ToolSolid::Layer;
+
+// Sums over the triangles in a tool.
+class Sums
+{
+public:
+  Sums(const ToolSolid& solid) noexcept
+    : solid_(&solid)
+  {
+  }
+
+  // @param isBorder  of which side of the triangle, whether nothing is beyond it
+  void add(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& normal,
+    const std::array<bool, 3>& isBorder) noexcept
+  {
+    const auto [low, high] = std::minmax({ corners[0].z(), corners[1].z(), corners[2].z() });
+    const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    double extent = 0.0;
+    for (const Eigen::Vector3d& corner : corners)
+    {
+      extent = std::max(extent, (corner - middle).head<2>().norm());
+    }
+    const double nearest = kInscribed * (middle.head<2>().norm() - extent);
+    for (const Layer& layer : solid_->layers())
+    {
+      const bool isLowest = &layer == solid_->layers().data();
+      const double widest = layer.radius + layer.slope * (std::min(high, layer.high) - layer.low);
+      if (high < layer.low || low >= layer.high || nearest > widest)
+      {
+        continue;
+      }
+      Piece piece(corners);
+      clipTo(layer, piece);
+      if (piece.size() < 3)
+      {
+        continue;
+      }
+      addPiece(layer, piece, normal, isLowest);
+      for (std::size_t k = 0; k < piece.size(); ++k)
+      {
+        const std::int8_t bound = piece.bound(k);
+        if (bound < codeOf(Bound::Bottom) && isBorder[static_cast<std::size_t>(bound)])
+        {
+          sum_.area -= borderOf(layer, piece[k], piece[piece.after(k)]);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] const Overlap& sum() const noexcept
+  {
+    return sum_;
+  }
+
+private:
+  void addPiece(
+    const Layer& layer, const Piece& piece, const Eigen::Vector3d& normal, bool isLowest) noexcept
+  {
+    double area = 0.0;
+    double flux = 0.0;
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    const Eigen::Vector3d& first = piece[0];
+    const double rise = first.z() - layer.pole;
+    for (std::size_t k = 1; k + 1 < piece.size(); ++k)
+    {
+      const Eigen::Vector3d& a = piece[k];
+      const Eigen::Vector3d& b = piece[k + 1];
+      const double part = 0.5 * normal.dot((a - first).cross(b - first));
+      area += part;
+      moment += part / 3.0 * (first + a + b);
+      if (layer.twist != 0.0)
+      {
+        flux += part * layer.twist / (rise * (a.z() - layer.pole) * (b.z() - layer.pole));
+      }
+    }
+    sum_.volume += layer.slope > 0.0
+      ? (flux + area / 3.0) * normal.dot(first - layer.pole * Eigen::Vector3d::UnitZ())
+      : normal.z() * (moment.z() + area * (layer.entering - layer.low));
+    sum_.area += area * normal;
+    if (!(normal.z() > 0.0))
+    {
+      return;
+    }
+    const double facing = normal.z() * normal.z();
+    Eigen::Vector3d widening = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d shifting = Eigen::Matrix3d::Zero();
+    for (std::size_t k = 0; k < piece.size(); ++k)
+    {
+      if (!isOfTool(piece.bound(k), isLowest))
+      {
+        continue;
+      }
+      const Eigen::Vector3d outward = outwardOf(layer, piece.bound(k));
+      const Eigen::Vector3d& from = piece[k];
+      const Eigen::Vector3d& to = piece[piece.after(k)];
+      const double sine = std::max(kAlong, outward.cross(normal).norm());
+      const Eigen::Vector3d part = (to - from).norm() / sine * outward;
+      widening += part;
+      shifting += 0.5 * (from + to) * part.transpose();
+    }
+    sum_.weight += facing * area;
+    sum_.normal += facing * area * normal;
+    sum_.place += facing * moment;
+    sum_.placeSlope += facing * shifting;
+    sum_.weightSlope += facing * widening;
+    sum_.normalSlope += facing * normal * widening.transpose();
+  }
+
+  // and neither of the triangle nor between two layers
+  static bool isOfTool(std::int8_t bound, bool isLowest) noexcept
+  {
+    return bound >= codeOf(Bound::Side) || (isLowest && bound == codeOf(Bound::Bottom));
+  }
+
+  static Eigen::Vector3d outwardOf(const Layer& layer, std::int8_t bound) noexcept
+  {
+    if (bound == codeOf(Bound::Bottom))
+    {
+      return { 0.0, 0.0, -1.0 };
+    }
+    const Eigen::Vector2d to =
+      ToolSolid::outward(static_cast<std::size_t>(bound - codeOf(Bound::Side)));
+    return layer.perSquare * Eigen::Vector3d(to.x(), to.y(), -layer.slope);
+  }
+
+  // the field across a part of the border
+  static Eigen::Vector3d borderOf(
+    const Layer& layer, const Eigen::Vector3d& from, const Eigen::Vector3d& to) noexcept
+  {
+    if (!(layer.slope > 0.0))
+    {
+      const double field = 0.5 * (from.z() + to.z()) - layer.low + layer.entering;
+      return field * Eigen::Vector3d::UnitZ().cross(to - from);
+    }
+    const double a = from.z() - layer.pole;
+    const double b = to.z() - layer.pole;
+    const double twist = layer.twist != 0.0 ? 0.5 * layer.twist * (a + b) / (a * a * b * b) : 0.0;
+    return (1.0 / 3.0 + twist) * (from - layer.pole * Eigen::Vector3d::UnitZ()).cross(to - from);
+  }
+
+  const ToolSolid* solid_;
+  Overlap sum_;
+};
+
+} // namespace
+
+ToolFrame::ToolFrame(const ToolPose& pose) noexcept
+  : apex(pose.apex)
+{
+  axes.col(2) = -pose.axis;
+  axes.col(0) = pose.axis.unitOrthogonal();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+}
+
+Overlap overlapOf(const Surface& surface, const ToolSolid& solid, const ToolFrame& frame) noexcept
+{
+  const BoxTree& tree = surface.tree();
+  const Eigen::Vector3d up = frame.axes.col(2);
+  // whether the ball about a box comes near the tool
+  const auto near = [&](const BoxTree::Node& box)
+  {
+    Eigen::Vector3d middle;
+    double size = 0.0;
+    for (Eigen::Index k = 0; k < 3; ++k)
+    {
+      const auto low = static_cast<double>(box.low[static_cast<std::size_t>(k)]);
+      const auto high = static_cast<double>(box.high[static_cast<std::size_t>(k)]);
+      middle[k] = 0.5 * (low + high) - frame.apex[k];
+      size += 0.25 * (high - low) * (high - low);
+    }
+    const double along = std::clamp(middle.dot(up), 0.0, solid.top());
+    size = std::sqrt(size);
+    const double reach = solid.outerRadiusBelow(along + size) + size;
+    return (middle - along * up).squaredNorm() < reach * reach;
+  };
+  Sums sums(solid);
+  const auto add = [&](int i)
+  {
+    const Facet& facet = tree.facets()[at(i)];
+    const std::array<Eigen::Vector3d, 3> corners = { frame.place(facet.corners[0]),
+      frame.place(facet.corners[1]), frame.place(facet.corners[2]) };
+    std::array<bool, 3> isBorder{};
+    for (int k = 0; !surface.closed() && k < 3; ++k)
+    {
+      isBorder[at(k)] = surface.across(tree.triangle(i), k) < 0;
+    }
+    sums.add(corners, frame.axes.transpose() * facet.normal, isBorder);
+  };
+  tree.search(near, add);
+  return sums.sum();
+}
+
+} // namespace palp

@@ -1,0 +1,162 @@
+#include "haptics/contact/overlap/tool_solid.h"
+
+#include "haptics/force/linear/contact_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kShaft = 4.0;          // [-] base radii of it that count
+constexpr std::size_t kCurvedSteps = 8; // of the radius of what is no straight cone
+constexpr double kCorner = 0.2;         // [-] of the base: the corner of its radius
+constexpr double kFlattest = 1e-9;      // [-] of the base: a height that is none
+
+struct Ring
+{
+  std::array<Eigen::Vector2d, ToolSolid::kSides>
+    corners; // of a ring whose sides are 1 from the axis
+  ToolSolid::Sides outwardX;
+  ToolSolid::Sides outwardY;
+  double apothem; // of a circle of radius 1 and the same area
+};
+
+Ring makeRing() noexcept
+{
+  constexpr double step = 2.0 * std::numbers::pi / ToolSolid::kSides;
+  Ring ring{};
+  for (std::size_t k = 0; k < ToolSolid::kSides; ++k)
+  {
+    const double at = step * static_cast<double>(k);
+    ring.corners[k] = Eigen::Vector2d(std::cos(at), std::sin(at)) / std::cos(0.5 * step);
+    const auto side = static_cast<Eigen::Index>(k);
+    ring.outwardX[side] = std::cos(at + 0.5 * step);
+    ring.outwardY[side] = std::sin(at + 0.5 * step);
+  }
+  ring.apothem = std::sqrt(0.5 * step / std::tan(0.5 * step));
+  return ring;
+}
+
+const Ring kRing = makeRing();
+
+} // namespace
+
+ToolSolid::ToolSolid(const Tip& tip) noexcept
+  : flat_(palp::flatRadius(tip))
+{
+  const double base = baseRadius(tip);
+  const std::size_t steps = std::get_if<ConeTip>(&tip) != nullptr ? 1 : kCurvedSteps;
+  double low = 0.0;
+  double from = flat_;
+  for (std::size_t i = 1; i <= steps; ++i)
+  {
+    // finer at a flat, where a little deeper is much wider
+    const double part = static_cast<double>(i) / static_cast<double>(steps);
+    const double to = flat_ + (base - flat_) * part * part;
+    const double high = contactDepth(tip, to);
+    if (high - low > kFlattest * base)
+    {
+      add(low, high, from, to);
+      low = high;
+      from = to;
+    }
+  }
+  add(low, low + kShaft * base, base, base);
+}
+
+void ToolSolid::add(double low, double high, double from, double to) noexcept
+{
+  const double slope = kRing.apothem * (to - from) / (high - low);
+  Layer layer{ .low = low,
+    .high = high,
+    .radius = kRing.apothem * from,
+    .slope = slope,
+    .pole = slope > 0.0 ? low - kRing.apothem * from / slope : 0.0,
+    .twist = 0.0,
+    .entering = 0.0,
+    .perSquare = 1.0 / std::hypot(1.0, slope),
+    .below = 0.0 };
+  if (count_ > 0)
+  {
+    const Layer& under = layers_[count_ - 1];
+    const double area = crossArea(under.radius);
+    const double areaAbove = crossArea(under.radius + under.slope * (under.high - under.low));
+    layer.below = under.below +
+      (under.high - under.low) / 3.0 * (area + areaAbove + std::sqrt(area * areaAbove));
+    const double rise = under.high - under.pole;
+    layer.entering = under.slope > 0.0 ? rise / 3.0 + under.twist / (rise * rise)
+                                       : under.entering + under.high - under.low;
+  }
+  if (slope > 0.0)
+  {
+    const double rise = low - layer.pole;
+    layer.twist = rise * rise * (layer.entering - rise / 3.0);
+  }
+  layers_[count_++] = layer;
+}
+
+double ToolSolid::crossArea(double radius) noexcept
+{
+  return kSides * std::tan(std::numbers::pi / kSides) * radius * radius;
+}
+
+double ToolSolid::outerRadius() const noexcept
+{
+  return layers_[count_ - 1].radius * outerPart();
+}
+
+double ToolSolid::outerRadiusBelow(double height) const noexcept
+{
+  double radius = layers_[0].radius;
+  for (const Layer& layer : layers())
+  {
+    radius += layer.slope * std::clamp(height - layer.low, 0.0, layer.high - layer.low);
+  }
+  return outerPart() * radius;
+}
+
+double ToolSolid::outerPart() noexcept
+{
+  return kRing.corners[0].x();
+}
+
+const std::array<Eigen::Vector2d, ToolSolid::kSides>& ToolSolid::corners() noexcept
+{
+  return kRing.corners;
+}
+
+Sloped ToolSolid::radiusAt(double height) const noexcept
+{
+  const Layer* layer = layers_.data();
+  for (const Layer& one : layers())
+  {
+    layer = height >= one.low ? &one : layer;
+  }
+  const double up = std::max(0.0, height - layer->low);
+  const double base = layers_[count_ - 1].radius;
+  return smoothMin(
+    { layer->radius + layer->slope * up, up > 0.0 ? layer->slope : 0.0 }, { base }, kCorner * base);
+}
+
+const ToolSolid::Sides& ToolSolid::outwardX() noexcept
+{
+  return kRing.outwardX;
+}
+
+const ToolSolid::Sides& ToolSolid::outwardY() noexcept
+{
+  return kRing.outwardY;
+}
+
+Eigen::Vector3d ToolSolid::corner(const Layer& layer, double height, std::size_t k) noexcept
+{
+  const double radius = layer.radius + layer.slope * (height - layer.low);
+  const Eigen::Vector2d& to = kRing.corners[k];
+  return { radius * to.x(), radius * to.y(), height };
+}
+
+} // namespace palp

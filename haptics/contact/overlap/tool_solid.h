@@ -1,0 +1,107 @@
+#pragma once
+
+#include "haptics/numerics/smooth_step.h"
+#include "haptics/tip/tip.h"
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace palp
+{
+
+/// What of a tool is in contact, as a stack of pyramids cut off flat, all of as many sides, and its
+/// shaft on top.
+///
+/// In the tool's own frame: the apex is the origin, and the shaft goes up along z. At each height
+/// it has the area of the circle of contact on a half-space of elastic material that is pressed
+/// that deep, which is smaller than the tool's own: of a cone 2 / pi as wide, of a punch as wide.
+/// Planes bound it, so that what it has in common with triangles is a polygon.
+///
+/// @source  contact circles: Sneddon 1965, haptics/force/linear/contact_depth.h
+class ToolSolid
+{
+public:
+  static constexpr std::size_t kSides = 24;
+
+  /// One pyramid, or the shaft.
+  ///
+  /// The field, of divergence 1, goes along the sides, so that none of it leaves through them: from
+  /// the pole x (1/3 + twist / z^3), and up along a shaft. Nothing enters at the bottom; what
+  /// leaves one layer enters the next.
+  struct Layer
+  {
+    double low;       ///< [m]
+    double high;      ///< [m]
+    double radius;    ///< from the axis to the sides, at low [m]
+    double slope;     ///< of that over the height; 0: the shaft [-]
+    double pole;      ///< height where the sides meet [m]
+    double twist;     ///< [m^3]
+    double entering;  ///< of the field, at low [m]
+    double perSquare; ///< 1 / root(1 + slope^2) [-]
+    double below;     ///< volume up to low [m^3]
+  };
+
+  /// @param tip  checked, without a round nose
+  explicit ToolSolid(const Tip& tip) noexcept;
+
+  /// From the apex up; the last is the shaft.
+  [[nodiscard]] std::span<const Layer> layers() const noexcept
+  {
+    return { layers_.data(), count_ };
+  }
+  /// Height of the end of the shaft [m].
+  [[nodiscard]] double top() const noexcept
+  {
+    return layers_[count_ - 1].high;
+  }
+  /// Of the shaft, to its corners [m].
+  [[nodiscard]] double outerRadius() const noexcept;
+
+  /// Not less than that of any cross section up to a height [m].
+  [[nodiscard]] double outerRadiusBelow(double height) const noexcept;
+
+  /// Of the contact at a depth, with the corner to the shaft rounded off [m].
+  [[nodiscard]] Sloped radiusAt(double height) const noexcept;
+
+  /// Of the flat at the apex, as a circle of the same area [m].
+  [[nodiscard]] double flatRadius() const noexcept
+  {
+    return flat_;
+  }
+
+  /// Of a cross section that is as far from the axis to its sides [m^2].
+  [[nodiscard]] static double crossArea(double radius) noexcept;
+
+  /// Unit vectors across the axis, outward from each side; their coordinates.
+  using Sides = Eigen::Array<double, kSides, 1>;
+  [[nodiscard]] static const Sides& outwardX() noexcept;
+  [[nodiscard]] static const Sides& outwardY() noexcept;
+  [[nodiscard]] static Eigen::Vector2d outward(std::size_t k) noexcept
+  {
+    const auto side = static_cast<Eigen::Index>(k);
+    return { outwardX()[side], outwardY()[side] };
+  }
+
+  /// And to each corner, of a cross section whose sides are 1 from the axis; k is between the sides
+  /// k - 1 and k.
+  [[nodiscard]] static const std::array<Eigen::Vector2d, kSides>& corners() noexcept;
+  /// Their distance from the axis [-].
+  [[nodiscard]] static double outerPart() noexcept;
+
+  /// Corner k of the cross section at a height.
+  [[nodiscard]] static Eigen::Vector3d corner(
+    const Layer& layer, double height, std::size_t k) noexcept;
+
+private:
+  static constexpr std::size_t kMost = 12;
+
+  void add(double low, double high, double from, double to) noexcept;
+
+  std::array<Layer, kMost> layers_{};
+  std::size_t count_ = 0;
+  double flat_;
+};
+
+} // namespace palp
