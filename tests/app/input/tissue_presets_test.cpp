@@ -100,6 +100,7 @@ TEST(TissuePresets, AreTakenByNameAndGivenValuesWin)
   {
     EXPECT_EQ(forceOf(both), forceOf("--young 5kPa --poisson 0.49")) << both;
   }
+  EXPECT_EQ(forceOf("--tissue fibrosis_f0"), forceOf("--tissue healthy_liver"));
   EXPECT_EQ(forceOf("--poisson 0.3 --tissue hcc"), forceOf("--young 51.45kPa --poisson 0.3"));
 }
 

@@ -105,6 +105,36 @@ TEST_P(ClosedLoop, GivesNoEnergyOnACoarseBody)
   }
 }
 
+// pushed out of the body the nearest way, they would gain up to seven times what was in them; the
+// normal below a flat end turns by whole facets, so fast that steps of a hundredth are coarse
+TEST(SharpTool, GainsNoEnergy)
+{
+  for (const auto& [tip, most] :
+    { std::pair(Tip{ ConeTip{ 30.0_deg, 10.0_mm } }, 1e-3), { ConeTip{ 60.0_deg, 10.0_mm }, 1e-3 },
+      { TruncatedConeTip{ 45.0_deg, 2.0_mm, 8.0_mm }, 0.03 }, { PunchTip{ 5.0_mm }, 0.1 } })
+  {
+    for (const auto& [cells, bumps] : { std::pair(9, 0.5_mm), { 20, 0.1_mm } })
+    {
+      Scene scene;
+      scene.surface =
+        std::make_shared<const Surface>(test::makeSurface(bumpyEllipsoid(cells, bumps)));
+      scene.law = ForceLaw(tip, makeMaterial(50.0_kPa, 0.45), { .mode = LawMode::Exact });
+      scene.forceLimit = 1e6;
+      Random random(7);
+      std::vector<double> gains;
+      for (int i = 0; i < 50; ++i)
+      {
+        gains.push_back(gainOfLoop(scene, random));
+      }
+      std::ranges::sort(gains);
+      std::erase(gains, 0.0);
+      EXPECT_GT(gains.size(), 30U);
+      EXPECT_LT(gains[gains.size() / 2], 0.05 * most) << tip.index() << ' ' << cells;
+      EXPECT_LT(gains.back(), most) << tip.index() << ' ' << cells;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Laws, ClosedLoop, testing::Values(LawMode::Exact, LawMode::Corrected),
   [](const auto& mode) { return mode.param == LawMode::Exact ? "exact" : "corrected"; });
 
