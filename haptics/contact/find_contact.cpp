@@ -272,8 +272,8 @@ Contact overlapContact(
   contact.normalSpread = std::acos(std::min(1.0, 1.0 - normals.spread()));
   contact.tilt = std::acos(std::clamp(upward.z(), -1.0, 1.0));
   const double front = surface.closed() ? 1.0 : std::min(1.0, upward.z() / kFront);
-  contact.depth = front * (deep.depth + deep.rim);
-  const Eigen::Vector3d outward = front * (contact.rising - turned(deep.rimByNormal));
+  contact.depth = front * deep.depth;
+  const Eigen::Vector3d outward = front * contact.rising;
   contact.slope = outward.norm();
   contact.normal = outward / contact.slope;
   // the middle of what is in the tool, from that of a plane below the apex, and up to a round top

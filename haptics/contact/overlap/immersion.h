@@ -14,14 +14,13 @@ struct Immersion
   double byVolume = 0.0;                              ///< [1/m^2]
   double byCurvature = 0.0;                           ///< [m^2]
   Eigen::Vector3d byNormal = Eigen::Vector3d::Zero(); ///< [m]
-  double rim = 0.0; ///< how far the lowest point of a flat is below its middle [m]
-  Eigen::Vector3d rimByNormal = Eigen::Vector3d::Zero(); ///< [m]
-  double area = 0.0;                               ///< of the body's surface in the tool [m^2]
-  Eigen::Vector3d aside = Eigen::Vector3d::Zero(); ///< its middle, from the foot of the apex [m]
+  double area = 0.0;                                  ///< of the body's surface in the tool [m^2]
+  Eigen::Vector3d aside = Eigen::Vector3d::Zero();    ///< its middle, from the foot of the apex [m]
 };
 
 /// The body is a half-space, with as much of a paraboloid on it as the rim of its surface in the
-/// tool encloses. A flat that the body's top does not cover is met as by a plane.
+/// tool encloses. A flat is as deep as its middle would be were it level, however it leans: the
+/// force on it is that of its mean depth.
 ///
 /// @param normal     outward, of unit length, in the tool's frame
 /// @param volume     above 0 [m^3]

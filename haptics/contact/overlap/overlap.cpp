@@ -58,7 +58,7 @@ public:
       for (std::size_t k = 0; k < piece.size(); ++k)
       {
         const std::int8_t bound = piece.bound(k);
-        if (bound < codeOf(Bound::Bottom) && isBorder[static_cast<std::size_t>(bound)])
+        if (bound < codeOf(Bound::Bottom) && isBorder[at(bound)])
         {
           sum_.area -= borderOf(layer, piece[k], piece[piece.after(k)]);
         }

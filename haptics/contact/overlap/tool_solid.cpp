@@ -11,7 +11,8 @@ namespace palp
 namespace
 {
 
-constexpr double kShaft = 4.0;          // [-] base radii of it that count
+constexpr double kShaft = 4.0; // [-] base radii of it that count,
+constexpr double kLong = 0.06; // [m] and at least, what is longer may be in another part of a body
 constexpr std::size_t kCurvedSteps = 8; // of the radius of what is no straight cone
 constexpr double kCorner = 0.2;         // [-] of the base: the corner of its radius
 constexpr double kFlattest = 1e-9;      // [-] of the base: a height that is none
@@ -65,7 +66,7 @@ ToolSolid::ToolSolid(const Tip& tip) noexcept
       from = to;
     }
   }
-  add(low, low + kShaft * base, base, base);
+  add(low, low + std::max(kShaft * base, kLong), base, base);
 }
 
 void ToolSolid::add(double low, double high, double from, double to) noexcept
