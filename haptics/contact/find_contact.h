@@ -36,7 +36,8 @@ struct Reach
 ///
 /// A tool without a round nose is as deep as it would be in a smooth body from which its circles of
 /// contact cut as much: half over an edge a cone is 0.79 times as deep, a punch half. It is met
-/// where the circle of contact is, not where its flank first touches the edge beside.
+/// where the circle of contact is, not where its flank first touches the edge beside; a flat end
+/// that leans is as deep as its mean.
 ///
 /// The contact carries the slopes of what a law asks for, so that the force is the gradient of one
 /// energy: a tool that is pressed in, dragged along and lifted gains no work.

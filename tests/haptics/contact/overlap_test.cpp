@@ -274,7 +274,7 @@ class OverAnEdge : public ::testing::TestWithParam<std::size_t>
 {
 protected:
   const Tip tip_ = kSharp[GetParam()].second;
-  Contact at(const ToolPose& pose) const
+  [[nodiscard]] Contact at(const ToolPose& pose) const
   {
     return findContact(blockOf24(), tip_, pose, ContactRule::Exact);
   }
