@@ -26,6 +26,7 @@ constexpr double kGradual = 0.2;   // [-] where that begins, of the corner of th
 constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear majority
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kEntry = 0.4;     // [-] 1 / power by which a spread grows as an edge comes in
+constexpr double kSteeper = 4.9;   // [-] most of a slope of a tool without a round nose
 constexpr double kSudden = 4.0;    // [-] most of a slope where the far wall of a lobe comes in
 constexpr double kShallow = 0.75;  // [-] contact sizes inside, to which the nearest point counts
 constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
@@ -274,8 +275,9 @@ Contact overlapContact(
   const double front = surface.closed() ? 1.0 : std::min(1.0, upward.z() / kFront);
   contact.depth = front * deep.depth;
   const Eigen::Vector3d outward = front * contact.rising;
-  contact.slope = outward.norm();
-  contact.normal = outward / contact.slope;
+  // by more only at the very end of a pin's contact, and where triangles are missing or turned over
+  contact.slope = std::min(outward.norm(), kSteeper);
+  contact.normal = outward.normalized();
   // the middle of what is in the tool, from that of a plane below the apex, and up to a round top
   const Eigen::Vector3d foot =
     axes * (place - deep.aside) + 0.25 / std::numbers::pi * deep.area * round * normal;
@@ -291,6 +293,10 @@ Contact exactContact(
 {
   Contact contact = noseRadius(tip) > 0.0 ? ballContact(surface, tip, pose, of)
                                           : overlapContact(surface, tip, pose, of);
+  if (contact.triangle < 0)
+  {
+    return {}; // by what is not a number
+  }
   if (contact.touching())
   {
     contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
@@ -326,7 +332,7 @@ Contact findContact(const Surface& surface, const Tip& tip, const ToolPose& pose
   }
   const Contact contact = rule == ContactRule::Paper ? paperContact(surface, tip, pose)
                                                      : exactContact(surface, tip, pose, of);
-  const bool usable = contact.depth > 0.0 && std::isfinite(contact.depth) &&
+  const bool usable = contact.depth > 0.0 && std::isfinite(contact.depth) && contact.slope > 0.0 &&
     contact.normal.allFinite() && contact.center.allFinite();
   return usable ? contact : Contact{};
 }

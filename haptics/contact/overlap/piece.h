@@ -107,8 +107,11 @@ private:
 
   void put(const Eigen::Vector3d& corner, std::int8_t bound) noexcept
   {
-    corners_[count_] = corner;
-    bounds_[count_++] = bound;
+    if (count_ < kMost) // where rounding makes a piece that is not convex
+    {
+      corners_[count_] = corner;
+      bounds_[count_++] = bound;
+    }
   }
 
   std::array<Eigen::Vector3d, kMost> corners_;
