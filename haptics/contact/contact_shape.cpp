@@ -32,18 +32,26 @@ Sloped shapeRadius(const Surface& surface, const Tip& tip, const Sloped& contact
   return smoothMax(contact, { least }, kCorner * least);
 }
 
-void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ToolPose& pose,
-  const NormalSum& normals, const ShapeBall& ball, CurvatureOf of) noexcept
+void measureNormal(Contact& contact, const ToolPose& pose, const NormalSum& normals) noexcept
 {
   const Eigen::Vector3d normal = normals.value.normalized();
-  const LocalShape shape = surface.shape()(ball.center, ball.radius, normal, grainOf(tip), of);
-  const Eigen::Matrix3d turning = normals.slope.transpose() / normals.value.norm();
-  const auto turn = [&](const Eigen::Vector3d& across)
-  { return Eigen::Vector3d(turning * across); };
+  contact.normalSpread = std::acos(std::min(1.0, 1.0 - normals.spread()));
+  contact.bodyNormal = normal;
+  contact.turning =
+    (normals.slope - normal * (normal.transpose() * normals.slope)) / normals.value.norm();
+  const Eigen::Vector3d lean = pose.axis - pose.axis.dot(normal) * normal;
+  contact.tiltSlope = contact.turning.transpose() * lean / std::max(lean.norm(), kUpright);
+}
+
+void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ShapeBall& ball,
+  CurvatureOf of) noexcept
+{
+  const LocalShape shape =
+    surface.shape()(ball.center, ball.radius, contact.bodyNormal, grainOf(tip), of);
   const auto slopeOf = [&](const LocalShape::Slope& one)
   {
-    return Eigen::Vector3d(
-      ball.moving.transpose() * one.place + one.radius * ball.widening + turn(one.normal));
+    return Eigen::Vector3d(ball.moving.transpose() * one.place + one.radius * ball.widening +
+      contact.turning.transpose() * one.normal);
   };
   contact.surfaceCurvature = shape.meanCurvature;
   contact.curvatureSpread = shape.curvatureSpread;
@@ -52,10 +60,6 @@ void measureShape(Contact& contact, const Surface& surface, const Tip& tip, cons
   contact.curvatureSlope = slopeOf(shape.meanCurvatureSlope);
   contact.spreadSlope = slopeOf(shape.curvatureSpreadSlope);
   contact.thicknessSlope = slopeOf(shape.thicknessSlope);
-  contact.bodyNormal = normal;
-  contact.turning = turning.transpose() - normal * (turning * normal).transpose();
-  const Eigen::Vector3d lean = pose.axis - pose.axis.dot(normal) * normal;
-  contact.tiltSlope = turn(lean) / std::max(lean.norm(), kUpright);
 }
 
 } // namespace palp

@@ -43,10 +43,14 @@ struct ShapeBall
 [[nodiscard]] Sloped shapeRadius(
   const Surface& surface, const Tip& tip, const Sloped& contact) noexcept;
 
-/// What of the body counts as the shape of the contact, and how that changes as the tool moves:
-/// with the ball, and with the normal, which turns with the body.
+/// The mean normal of the body, and how the tool is tilted to it as that turns with the body.
 /// @realtime  pure; no allocation, no lock, no exception
-void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ToolPose& pose,
-  const NormalSum& normals, const ShapeBall& ball, CurvatureOf of) noexcept;
+void measureNormal(Contact& contact, const ToolPose& pose, const NormalSum& normals) noexcept;
+
+/// What of the body counts as the shape of the contact, and how that changes as the tool moves:
+/// with the ball, and with the normal, which is there before.
+/// @realtime  pure; no allocation, no lock, no exception
+void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ShapeBall& ball,
+  CurvatureOf of) noexcept;
 
 } // namespace palp

@@ -195,12 +195,12 @@ Contact ballContact(
   const NormalSum normals{ here->patch.normal, slopes.normal, here->patch.weight, slopes.weight };
   const double share = 1.0 - normals.spread();
   Contact contact;
-  contact.normalSpread = std::acos(std::min(1.0, share));
+  measureNormal(contact, pose, normals);
   const HeightOver heightOver(here->patch, rule, here->distance, here->size);
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
   const Sloped wide = shapeRadius(surface, tip, rule.contactRadius(flat.value));
   const double reach = std::hypot(flat.value, wide.value);
-  measureShape(contact, surface, tip, pose, normals,
+  measureShape(contact, surface, tip,
     { position, reach, (flat.value + wide.value * wide.slope) / reach * flat.slope }, of);
   const Part curved = curvedPart(*here, normals, contact, rule, wide, flat.slope);
   contact.curvedPart = curved.value;
@@ -246,11 +246,9 @@ Contact overlapContact(
   }
   const NormalSum normals{ axes * all.normal, axes * all.normalSlope * axes.transpose(), all.weight,
     axes * all.weightSlope };
-  const Eigen::Vector3d normal = normals.value.normalized();
-  const Eigen::Vector3d upward = all.normal.normalized(); // the same, as the tool sees it
+  const Eigen::Vector3d upward = all.normal.normalized(); // as the tool sees it
   Contact contact;
-  contact.turning =
-    (normals.slope - normal * (normal.transpose() * normals.slope)) / normals.value.norm();
+  measureNormal(contact, pose, normals);
   const auto turned = [&](const Eigen::Vector3d& byNormal)
   { return Eigen::Vector3d(contact.turning.transpose() * (axes * byNormal)); };
   const Eigen::Vector3d falling = axes * all.area;
@@ -260,7 +258,7 @@ Contact overlapContact(
   const ShapeBall ball{ frame.apex + axes * place, wide.value,
     wide.slope * (turned(flat.byNormal) - flat.byVolume * falling),
     axes * (all.placeSlope - place * all.weightSlope.transpose()) / all.weight * axes.transpose() };
-  measureShape(contact, surface, tip, pose, normals, ball, CurvatureOf::Faces);
+  measureShape(contact, surface, tip, ball, CurvatureOf::Faces);
   const double round = contact.surfaceCurvature; // without edges
   const Immersion deep = immersionOf(solid, upward, all.volume, flat.depth, round);
   contact.height = -deep.depth;
@@ -268,9 +266,8 @@ Contact overlapContact(
     deep.byVolume * falling - deep.byCurvature * contact.curvatureSlope - turned(deep.byNormal);
   if (of == CurvatureOf::All)
   {
-    measureShape(contact, surface, tip, pose, normals, ball, of);
+    measureShape(contact, surface, tip, ball, of);
   }
-  contact.normalSpread = std::acos(std::min(1.0, 1.0 - normals.spread()));
   contact.tilt = std::acos(std::clamp(upward.z(), -1.0, 1.0));
   const double front = surface.closed() ? 1.0 : std::min(1.0, upward.z() / kFront);
   contact.depth = front * deep.depth;
@@ -280,9 +277,9 @@ Contact overlapContact(
   contact.normal = outward.normalized();
   // the middle of what is in the tool, from that of a plane below the apex, and up to a round top
   const Eigen::Vector3d foot =
-    axes * (place - deep.aside) + 0.25 / std::numbers::pi * deep.area * round * normal;
+    axes * (place - deep.aside) + 0.25 / std::numbers::pi * deep.area * round * contact.bodyNormal;
   contact.center = frame.apex + foot;
-  contact.relief = foot.dot(normal) - deep.depth;
+  contact.relief = foot.dot(contact.bodyNormal) - deep.depth;
   contact.triangle =
     findClosestPoint(surface, contact.center, std::numeric_limits<double>::infinity()).triangle;
   return contact;
@@ -293,15 +290,12 @@ Contact exactContact(
 {
   Contact contact = noseRadius(tip) > 0.0 ? ballContact(surface, tip, pose, of)
                                           : overlapContact(surface, tip, pose, of);
-  if (contact.triangle < 0)
+  if (!contact.touching() || contact.triangle < 0) // or by what is not a number
   {
-    return {}; // by what is not a number
+    return {};
   }
-  if (contact.touching())
-  {
-    contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
-      surface.edgeDistance(contact.center, contact.triangle));
-  }
+  contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
+    surface.edgeDistance(contact.center, contact.triangle));
   return contact;
 }
 

@@ -171,6 +171,10 @@ Profile::Profile(std::vector<Point> points, std::string name)
       .c1 = turn - 2.0 * bend * x,
       .c2 = bend });
   }
+  for (std::size_t i = 0; i < kCircles; ++i)
+  {
+    circleDepths_[i] = contactDepth(circleRadius(flatRadius(), baseRadius(), i));
+  }
 }
 
 const Profile::Piece& Profile::pieceAt(double radius) const noexcept

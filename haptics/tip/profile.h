@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -64,6 +66,25 @@ public:
   /// @source        Sneddon 1965; method of dimensionality reduction, Popov and Hess 2015
   [[nodiscard]] double contactDepth(double radius) const noexcept;
 
+  /// So many circles of contact stand for those of all depths.
+  static constexpr std::size_t kCircles = 8;
+
+  /// Radius of one of them, the last that of the base [m]; closer at a flat, where a little deeper
+  /// is much wider.
+  [[nodiscard]] static constexpr double circleRadius(
+    double flat, double base, std::size_t circle) noexcept
+  {
+    const double part = static_cast<double>(circle + 1) / static_cast<double>(kCircles);
+    return flat + (base - flat) * part * part;
+  }
+
+  /// contactDepth() of each [m]: a servo thread has no time for all points of a file.
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] const std::array<double, kCircles>& circleDepths() const noexcept
+  {
+    return circleDepths_;
+  }
+
 private:
   /// f' = c0 + c1 r + c2 r^2 from begin to end.
   struct Piece
@@ -84,6 +105,7 @@ private:
   [[nodiscard]] const Piece& pieceAt(double radius) const noexcept;
 
   std::vector<Piece> pieces_;
+  std::array<double, kCircles> circleDepths_{};
   std::string name_;
 };
 

@@ -72,10 +72,10 @@ double lowestOf(const ToolSolid& solid, const Eigen::Vector3d& normal) noexcept
 }
 
 // A flat below the top of a round body, which does not cover it: a cap.
-bool isCap(const ToolSolid& solid, double volume, const Leveled& bent) noexcept
+bool isCap(const ToolSolid& solid, double volume, double curvature) noexcept
 {
   const double square = solid.flatRadius() * solid.flatRadius();
-  return volume < 0.25 * kPi * bent.value * square * square;
+  return volume < 0.25 * kPi * curvature * square * square;
 }
 
 } // namespace
@@ -85,13 +85,12 @@ Immersion immersionOf(const ToolSolid& solid, const Eigen::Vector3d& outward, do
 {
   const bool isFlat = solid.flatRadius() > 0.0;
   const Eigen::Vector3d normal = isFlat ? Eigen::Vector3d::UnitZ() : outward;
-  if (const Leveled bent = bentAt(solid, curvature, widthAt(solid, 0.0));
-      isFlat && isCap(solid, volume, bent))
+  if (isCap(solid, volume, curvature))
   {
-    const double depth = std::sqrt(bent.value * volume / kPi);
+    const double depth = std::sqrt(curvature * volume / kPi);
     return { .depth = depth,
       .byVolume = 0.5 * depth / volume,
-      .byCurvature = 0.5 * depth / bent.value * bent.slope,
+      .byCurvature = 0.5 * depth / curvature,
       .area = 2.0 * volume / depth };
   }
   double low = lowestOf(solid, normal) - kLeast;

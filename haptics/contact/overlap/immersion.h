@@ -22,13 +22,13 @@ struct Immersion
 /// tool encloses. A flat is as deep as its middle would be were it level, however it leans: the
 /// force on it is that of its mean depth.
 ///
-/// @param normal     outward, of unit length, in the tool's frame
+/// @param outward    normal, of unit length, in the tool's frame
 /// @param volume     above 0 [m^3]
 /// @param start      a depth that is near [m]
 /// @param curvature  mean, convex positive [1/m]; leveled off where the body is rounder than what
 ///                   of the tool is in it
 /// @realtime         pure; no allocation, no lock, no exception
-[[nodiscard]] Immersion immersionOf(const ToolSolid& solid, const Eigen::Vector3d& normal,
+[[nodiscard]] Immersion immersionOf(const ToolSolid& solid, const Eigen::Vector3d& outward,
   double volume, double start, double curvature) noexcept;
 
 } // namespace palp

@@ -43,7 +43,7 @@ public:
     for (const Layer& layer : solid_->layers())
     {
       const bool isLowest = &layer == solid_->layers().data();
-      const double widest = layer.radius + layer.slope * (std::min(high, layer.high) - layer.low);
+      const double widest = layer.radiusAt(std::min(high, layer.high));
       if (high < layer.low || low >= layer.high || nearest > widest)
       {
         continue;

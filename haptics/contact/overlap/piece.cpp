@@ -10,7 +10,7 @@ bool isIn(const ToolSolid::Layer& layer, const Piece& piece) noexcept
   for (std::size_t k = 0; k < piece.size(); ++k)
   {
     const Eigen::Vector3d& x = piece[k];
-    const double radius = layer.radius + layer.slope * (x.z() - layer.low);
+    const double radius = layer.radiusAt(x.z());
     if (!(x.z() >= layer.low && x.z() <= layer.high &&
           x.head<2>().squaredNorm() <= radius * radius))
     {
@@ -36,8 +36,8 @@ void clipTo(const ToolSolid::Layer& layer, Piece& piece) noexcept
   for (std::size_t k = 0; k < piece.size(); ++k)
   {
     const Eigen::Vector3d& x = piece[k];
-    const double radius = layer.radius + layer.slope * (x.z() - layer.low);
-    const Sides over = ToolSolid::outwardX() * x.x() + ToolSolid::outwardY() * x.y() - radius;
+    const Sides over =
+      ToolSolid::outwardX() * x.x() + ToolSolid::outwardY() * x.y() - layer.radiusAt(x.z());
     most = most.max(over);
     least = least.min(over);
   }
@@ -51,9 +51,8 @@ void clipTo(const ToolSolid::Layer& layer, Piece& piece) noexcept
     if (most[static_cast<Eigen::Index>(k)] > 0.0)
     {
       const Eigen::Vector2d to = ToolSolid::outward(k);
-      const auto over = [&](const auto& x) {
-        return to.x() * x.x() + to.y() * x.y() - layer.radius - layer.slope * (x.z() - layer.low);
-      };
+      const auto over = [&](const auto& x)
+      { return to.dot(x.template head<2>()) - layer.radiusAt(x.z()); };
       piece.clip(over, codeOf(Bound::Side, k));
     }
   }

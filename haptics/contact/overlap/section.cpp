@@ -110,8 +110,7 @@ const ToolSolid::Layer* wholeLayer(
   for (const ToolSolid::Layer& layer : solid.layers())
   {
     const double below = layer.low * normal.z() + lean * layer.radius;
-    const double above =
-      layer.high * normal.z() - lean * (layer.radius + layer.slope * (layer.high - layer.low));
+    const double above = layer.high * normal.z() - lean * layer.radiusAt(layer.high);
     if (below < height && height < above)
     {
       return &layer;

@@ -11,11 +11,10 @@ namespace palp
 namespace
 {
 
-constexpr double kShaft = 4.0; // [-] base radii of it that count,
-constexpr double kLong = 0.06; // [m] and at least, what is longer may be in another part of a body
-constexpr std::size_t kCurvedSteps = 8; // of the radius of what is no straight cone
-constexpr double kCorner = 0.2;         // [-] of the base: the corner of its radius
-constexpr double kFlattest = 1e-9;      // [-] of the base: a height that is none
+constexpr double kShaft = 4.0;  // [-] base radii of it that count,
+constexpr double kLong = 0.06;  // [m] and at least, what is longer may be in another part of a body
+constexpr double kCorner = 0.2; // [-] of the base: the corner of its radius
+constexpr double kFlattest = 1e-9; // [-] of the base: a height that is none
 
 struct Ring
 {
@@ -23,6 +22,7 @@ struct Ring
     corners; // of a ring whose sides are 1 from the axis
   ToolSolid::Sides outwardX;
   ToolSolid::Sides outwardY;
+  double area;    // of a ring whose sides are 1 from the axis
   double apothem; // of a circle of radius 1 and the same area
 };
 
@@ -38,7 +38,8 @@ Ring makeRing() noexcept
     ring.outwardX[side] = std::cos(at + 0.5 * step);
     ring.outwardY[side] = std::sin(at + 0.5 * step);
   }
-  ring.apothem = std::sqrt(0.5 * step / std::tan(0.5 * step));
+  ring.area = ToolSolid::kSides * std::tan(0.5 * step);
+  ring.apothem = std::sqrt(std::numbers::pi / ring.area);
   return ring;
 }
 
@@ -50,15 +51,15 @@ ToolSolid::ToolSolid(const Tip& tip) noexcept
   : flat_(palp::flatRadius(tip))
 {
   const double base = baseRadius(tip);
-  const std::size_t steps = std::get_if<ConeTip>(&tip) != nullptr ? 1 : kCurvedSteps;
+  const auto* profile = std::get_if<ProfileTip>(&tip);
+  const bool isCone = std::holds_alternative<ConeTip>(tip);
   double low = 0.0;
   double from = flat_;
-  for (std::size_t i = 1; i <= steps; ++i)
+  for (std::size_t i = isCone ? Profile::kCircles - 1 : 0; i < Profile::kCircles; ++i)
   {
-    // finer at a flat, where a little deeper is much wider
-    const double part = static_cast<double>(i) / static_cast<double>(steps);
-    const double to = flat_ + (base - flat_) * part * part;
-    const double high = contactDepth(tip, to);
+    const double to = Profile::circleRadius(flat_, base, i);
+    const double high =
+      profile != nullptr ? profile->profile->circleDepths()[i] : contactDepth(tip, to);
     if (high - low > kFlattest * base)
     {
       add(low, high, from, to);
@@ -85,7 +86,7 @@ void ToolSolid::add(double low, double high, double from, double to) noexcept
   {
     const Layer& under = layers_[count_ - 1];
     const double area = crossArea(under.radius);
-    const double areaAbove = crossArea(under.radius + under.slope * (under.high - under.low));
+    const double areaAbove = crossArea(under.radiusAt(under.high));
     layer.below = under.below +
       (under.high - under.low) / 3.0 * (area + areaAbove + std::sqrt(area * areaAbove));
     const double rise = under.high - under.pole;
@@ -102,7 +103,7 @@ void ToolSolid::add(double low, double high, double from, double to) noexcept
 
 double ToolSolid::crossArea(double radius) noexcept
 {
-  return kSides * std::tan(std::numbers::pi / kSides) * radius * radius;
+  return kRing.area * radius * radius;
 }
 
 double ToolSolid::outerRadius() const noexcept
@@ -137,10 +138,10 @@ Sloped ToolSolid::radiusAt(double height) const noexcept
   {
     layer = height >= one.low ? &one : layer;
   }
-  const double up = std::max(0.0, height - layer->low);
   const double base = layers_[count_ - 1].radius;
   return smoothMin(
-    { layer->radius + layer->slope * up, up > 0.0 ? layer->slope : 0.0 }, { base }, kCorner * base);
+    { layer->radiusAt(std::max(height, layer->low)), height > layer->low ? layer->slope : 0.0 },
+    { base }, kCorner * base);
 }
 
 const ToolSolid::Sides& ToolSolid::outwardX() noexcept
@@ -155,7 +156,7 @@ const ToolSolid::Sides& ToolSolid::outwardY() noexcept
 
 Eigen::Vector3d ToolSolid::corner(const Layer& layer, double height, std::size_t k) noexcept
 {
-  const double radius = layer.radius + layer.slope * (height - layer.low);
+  const double radius = layer.radiusAt(height);
   const Eigen::Vector2d& to = kRing.corners[k];
   return { radius * to.x(), radius * to.y(), height };
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/numerics/smooth_step.h"
+#include "haptics/tip/profile.h"
 #include "haptics/tip/tip.h"
 
 #include <Eigen/Core>
@@ -41,6 +42,12 @@ public:
     double entering;  ///< of the field, at low [m]
     double perSquare; ///< 1 / root(1 + slope^2) [-]
     double below;     ///< volume up to low [m^3]
+
+    /// From the axis to the sides [m].
+    [[nodiscard]] double radiusAt(double height) const noexcept
+    {
+      return radius + slope * (height - low);
+    }
   };
 
   /// @param tip  checked, without a round nose
@@ -95,7 +102,7 @@ public:
     const Layer& layer, double height, std::size_t k) noexcept;
 
 private:
-  static constexpr std::size_t kMost = 12;
+  static constexpr std::size_t kMost = Profile::kCircles + 1;
 
   void add(double low, double high, double from, double to) noexcept;
 
