@@ -171,6 +171,11 @@ Profile::Profile(std::vector<Point> points, std::string name)
       .c1 = turn - 2.0 * bend * x,
       .c2 = bend });
   }
+  bakeCircles();
+}
+
+void Profile::bakeCircles() noexcept
+{
   for (std::size_t i = 0; i < kCircles; ++i)
   {
     circleDepths_[i] = contactDepth(circleRadius(flatRadius(), baseRadius(), i));

@@ -103,6 +103,7 @@ private:
   };
 
   [[nodiscard]] const Piece& pieceAt(double radius) const noexcept;
+  void bakeCircles() noexcept;
 
   std::vector<Piece> pieces_;
   std::array<double, kCircles> circleDepths_{};
