@@ -1,7 +1,7 @@
 #include "app/bench/bench.h"
 #include "app/bench/bench_work.h"
 #include "data/shapes.h"
-#include "haptics/contact/disc_integral.h"
+#include "haptics/contact/ball/disc_integral.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -16,6 +16,7 @@ namespace
 using namespace units::literals;
 
 constexpr int kSoftStart = 4000; // ticks
+constexpr double kBall = 10.0_mm;
 
 ToolPose poseAtTick(int tick)
 {
@@ -114,10 +115,11 @@ void benchSurface(
   double weight = 0.0;
   const auto all = [&](int i)
   {
-    const Eigen::Vector3d center = poseAtTick(i).apex + 10.0_mm * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d center = poseAtTick(i).apex + kBall * Eigen::Vector3d::UnitZ();
+    RimAngle rim(kBall);
     for (const Facet& facet : surface->tree().facets())
     {
-      weight += integrate(facet, center, 1e-4).weight;
+      weight += integrate(facet, center, kBall * kBall, rim).weight;
     }
   };
   const int repetitions = std::min(vertices > 20'000 ? 20 : 200, ticks / 20);

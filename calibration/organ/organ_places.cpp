@@ -4,11 +4,11 @@
 #include "calibration/organ/mapped_contact.h"
 #include "calibration/organ/organ_compliance.h"
 #include "haptics/surface/area_and_volume.h"
-#include "haptics/surface/box_tree.h"
 #include "haptics/surface/closest_point.h"
 #include "haptics/surface/facet_part.h"
 #include "haptics/surface/ray.h"
 #include "haptics/surface/sampling/place_grid.h"
+#include "haptics/surface/tree/box_tree.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "haptics/contact/body_rules.h"
 
-#include "haptics/contact/ball_rule.h"
+#include "haptics/contact/ball/ball_rule.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 #include "haptics/contact/find_contact.h"
 
-#include "haptics/contact/ball_rule.h"
+#include "haptics/contact/ball/ball_rule.h"
+#include "haptics/contact/ball/height_over.h"
+#include "haptics/contact/ball/patch.h"
 #include "haptics/contact/contact_shape.h"
-#include "haptics/contact/height_over.h"
 #include "haptics/contact/overlap/immersion.h"
 #include "haptics/contact/overlap/overlap.h"
 #include "haptics/contact/paper_contact.h"
-#include "haptics/contact/patch.h"
 #include "haptics/numerics/smooth_step.h"
 #include "haptics/surface/closest_point.h"
 

@@ -1,5 +1,6 @@
 #include "haptics/surface/crossing.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "haptics/surface/box_tree.h"
 #include "haptics/surface/facet_part.h"
 #include "haptics/surface/shape_field.h"
+#include "haptics/surface/tree/box_tree.h"
+#include "haptics/surface/tree/facet_sums.h"
 #include "haptics/surface/winding.h"
 
 #include <Eigen/Core>
@@ -117,8 +118,15 @@ public:
     return tree_;
   }
 
+  /// What the triangles below the nodes of the tree add up to.
+  [[nodiscard]] const FacetSums& sums() const noexcept
+  {
+    return sums_;
+  }
+
 private:
   bool linkEdges();
+  [[nodiscard]] std::vector<bool> openTriangles() const;
   void spreadOpenEdges();
   [[nodiscard]] std::optional<Eigen::Vector3d> findOverlap() const;
   void dropWhatIsBuried();
@@ -136,6 +144,7 @@ private:
   double edgeLength_ = 0.0;
   Creases creases_;
   BoxTree tree_;
+  FacetSums sums_;
   ShapeField shape_;
   std::optional<Eigen::Vector3d> crossing_;
   std::optional<Winding> winding_;

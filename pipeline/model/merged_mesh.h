@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/surface/box_tree.h"
+#include "haptics/surface/tree/box_tree.h"
 
 #include <span>
 #include <vector>

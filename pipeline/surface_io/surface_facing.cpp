@@ -1,6 +1,6 @@
 #include "pipeline/surface_io/surface_facing.h"
 
-#include "haptics/surface/box_tree.h"
+#include "haptics/surface/tree/box_tree.h"
 #include "haptics/surface/winding.h"
 
 #include <Eigen/Geometry>

@@ -2,8 +2,8 @@
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
-#include "haptics/surface/box_tree.h"
 #include "haptics/surface/edges.h"
+#include "haptics/surface/tree/box_tree.h"
 #include "pipeline/model/merged_mesh.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_facing.h"

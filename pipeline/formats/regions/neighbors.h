@@ -1,7 +1,7 @@
 #pragma once
 
-#include "haptics/surface/box_tree.h"
 #include "haptics/surface/edges.h"
+#include "haptics/surface/tree/box_tree.h"
 
 #include <cstddef>
 #include <functional>

@@ -1,7 +1,7 @@
-#include "haptics/contact/patch.h"
+#include "haptics/contact/ball/patch.h"
 
-#include "haptics/contact/disc_integral.h"
-#include "haptics/contact/lens.h"
+#include "haptics/contact/ball/disc_integral.h"
+#include "haptics/contact/ball/lens.h"
 #include "tests/support/surfaces.h"
 
 #include <algorithm>
@@ -20,9 +20,24 @@ Facet facetOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::V
   return { .corners = { a, b, c }, .normal = (b - a).cross(c - a).normalized() };
 }
 
+// of one triangle in a ball
+struct Part
+{
+  double area = 0.0;
+  double weight = 0.0;
+  double rim = 0.0;
+  double solidAngle = 0.0;
+};
+
+Part partOf(const Facet& facet, const Eigen::Vector3d& center, double squaredRadius)
+{
+  RimAngle rim(std::sqrt(squaredRadius));
+  const DiscIntegral within = integrate(facet, center, squaredRadius, rim);
+  return { within.area, within.weight, within.rim, solidAngleOf(facet, center, squaredRadius) };
+}
+
 // the same integrals by halving the triangle again and again
-DiscIntegral subdivided(
-  const Facet& facet, const Eigen::Vector3d& center, double squaredRadius, int levels)
+Part subdivided(const Facet& facet, const Eigen::Vector3d& center, double squaredRadius, int levels)
 {
   const auto& [a, b, c] = facet.corners;
   if (levels == 0)
@@ -38,12 +53,12 @@ DiscIntegral subdivided(
   const Eigen::Vector3d ab = 0.5 * (a + b);
   const Eigen::Vector3d bc = 0.5 * (b + c);
   const Eigen::Vector3d ca = 0.5 * (c + a);
-  DiscIntegral sum;
+  Part sum;
   for (const Facet& part :
     { Facet{ { a, ab, ca }, facet.normal }, Facet{ { ab, b, bc }, facet.normal },
       Facet{ { ca, bc, c }, facet.normal }, Facet{ { ab, bc, ca }, facet.normal } })
   {
-    const DiscIntegral value = subdivided(part, center, squaredRadius, levels - 1);
+    const Part value = subdivided(part, center, squaredRadius, levels - 1);
     sum.weight += value.weight;
     sum.area += value.area;
     sum.solidAngle += value.solidAngle;
@@ -62,8 +77,8 @@ TEST(Patch, TriangleAndBallAgreeWithSubdivision)
     const Facet facet = facetOf(point(), point(), point());
     const Eigen::Vector3d center = point();
     const double squaredRadius = 0.05 + std::abs(position(random));
-    const DiscIntegral exact = integrate(facet, center, squaredRadius);
-    const DiscIntegral sum = subdivided(facet, center, squaredRadius, 7);
+    const Part exact = partOf(facet, center, squaredRadius);
+    const Part sum = subdivided(facet, center, squaredRadius, 7);
     EXPECT_NEAR(exact.weight, sum.weight, 5e-4);
     EXPECT_NEAR(exact.area, sum.area, 5e-3);
     EXPECT_NEAR(exact.solidAngle, sum.solidAngle, 0.02 * sum.solidAngle + 2e-3);
@@ -79,8 +94,8 @@ TEST(Patch, ATriangleAndAFarLargerBallAgreeWithSubdivision)
   for (const double reach : { 1e-5, 5e-5, 1e-4, 1.5e-4, 2e-4, 1e-3 })
   {
     const double squaredRadius = (nearest + reach) * (nearest + reach);
-    const DiscIntegral exact = integrate(facet, center, squaredRadius);
-    const DiscIntegral sum = subdivided(facet, center, squaredRadius, 9);
+    const Part exact = partOf(facet, center, squaredRadius);
+    const Part sum = subdivided(facet, center, squaredRadius, 9);
     EXPECT_NEAR(exact.weight, sum.weight, 3e-3 * sum.weight);
     EXPECT_NEAR(exact.area, sum.area, 2e-2 * sum.area);
     EXPECT_NEAR(exact.solidAngle, sum.solidAngle, 2e-2 * sum.solidAngle);
@@ -90,7 +105,7 @@ TEST(Patch, ATriangleAndAFarLargerBallAgreeWithSubdivision)
 TEST(Patch, WholeDiscInsideATriangle)
 {
   const Facet facet = facetOf({ -9.0, -9.0, 0.0 }, { 9.0, -9.0, 0.0 }, { 0.0, 9.0, 0.0 });
-  const DiscIntegral disc = integrate(facet, { 0.1, 0.2, 0.6 }, 1.0);
+  const Part disc = partOf(facet, { 0.1, 0.2, 0.6 }, 1.0);
   EXPECT_NEAR(disc.weight, std::numbers::pi * std::pow(0.64, 2) / 2.0, 1e-14);
   EXPECT_NEAR(disc.area, std::numbers::pi * 0.64, 1e-14);
   EXPECT_NEAR(disc.rim, std::numbers::pi, 1e-14);
@@ -289,7 +304,7 @@ TEST(Patch, ATriangleLeavesTheBallGently)
   const Facet facet = facetOf({ -9.0, -9.0, 0.0 }, { 9.0, -9.0, 0.0 }, { 0.0, 9.0, 0.0 });
   for (const double reach : { 1e-2, 1e-4, 1e-6 })
   {
-    const DiscIntegral last = integrate(facet, { 0.0, 0.0, 1.0 }, 1.0 + reach);
+    const Part last = partOf(facet, { 0.0, 0.0, 1.0 }, 1.0 + reach);
     EXPECT_NEAR(last.weight, std::numbers::pi * reach * reach / 2.0, 1e-9 * reach);
     EXPECT_NEAR(last.area, std::numbers::pi * reach, 1e-9 * reach + 1e-15);
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "haptics/contact/ball_rule.h"
-#include "haptics/contact/patch.h"
+#include "haptics/contact/ball/ball_rule.h"
+#include "haptics/contact/ball/patch.h"
 
 #include <Eigen/Core>
 

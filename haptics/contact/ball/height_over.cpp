@@ -1,6 +1,6 @@
-#include "haptics/contact/height_over.h"
+#include "haptics/contact/ball/height_over.h"
 
-#include "haptics/contact/lens.h"
+#include "haptics/contact/ball/lens.h"
 #include "haptics/numerics/leveled.h"
 #include "haptics/numerics/smooth_step.h"
 

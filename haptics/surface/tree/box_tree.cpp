@@ -1,4 +1,4 @@
-#include "haptics/surface/box_tree.h"
+#include "haptics/surface/tree/box_tree.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "haptics/contact/ball_rule.h"
+#include "haptics/contact/ball/ball_rule.h"
 
 #include "haptics/numerics/smooth_step.h"
 

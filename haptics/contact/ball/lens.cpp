@@ -1,4 +1,4 @@
-#include "haptics/contact/lens.h"
+#include "haptics/contact/ball/lens.h"
 
 #include <cmath>
 #include <numbers>

@@ -140,4 +140,21 @@ private:
   return sum;
 }
 
+/// The largest squared distance of a point to anything in a box [m^2].
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] inline double squaredReach(
+  const BoxTree::Node& box, const Eigen::Vector3d& point) noexcept
+{
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double x = point[static_cast<Eigen::Index>(k)];
+    const double below = x - static_cast<double>(box.low[k]);
+    const double above = static_cast<double>(box.high[k]) - x;
+    const double farther = below > above ? below : above;
+    sum += farther * farther;
+  }
+  return sum;
+}
+
 } // namespace palp

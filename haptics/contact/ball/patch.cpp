@@ -1,0 +1,210 @@
+#include "haptics/contact/ball/patch.h"
+
+#include "haptics/contact/ball/disc_integral.h"
+#include "haptics/numerics/box_probe.h"
+#include "haptics/numerics/smooth_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kCone = 1.0 / 3.0; // volume by base and height
+
+// of Q, as far as the ball reaches behind a plane: with less its rim, which is all at once 2 pi
+// where the ball meets a far wall, counts gradually
+constexpr double kNew = 0.1;
+
+// of the sphere, nearer than which to none or all of it its triangles are summed one by one: the
+// angle of the rim is known up to whole spheres
+constexpr double kUnsure = 1e-3; // [rad^2]
+constexpr double kSphere = 4.0 * std::numbers::pi;
+
+// how much one of the triangles counts
+struct Counted
+{
+  double height;                                    // of the center over its plane [m]
+  double part = 1.0;                                // that counts [-]
+  Eigen::Vector3d change = Eigen::Vector3d::Zero(); // of that part as the center moves [1/m]
+  double byTurning = 0.0;                           // of it over how fast it fades [m]
+};
+
+Counted countedOf(const Facet& facet, const PatchBall& ball) noexcept
+{
+  Counted one{ facet.normal.dot(ball.center - facet.corners[0]) };
+  if (const double faced = std::max(0.0, 1.0 + ball.turning * one.height); faced < 1.0)
+  {
+    one.part = smoothStep(faced);
+    const double fall = 6.0 * faced * (1.0 - faced);
+    one.change = fall * ball.turning * facet.normal;
+    one.byTurning = fall * one.height;
+  }
+  return one;
+}
+
+// sums the triangles in a ball
+class PatchSum
+{
+public:
+  PatchSum(const Surface& surface, const PatchBall& ball) noexcept
+    : surface_(surface)
+    , ball_(ball)
+    , squaredRadius_(ball.radius * ball.radius)
+    , byArea_(2.0 / 15.0 * squaredRadius_)
+    , byAngle_(kCone * squaredRadius_ * ball.radius)
+    , full_(byArea_ * squaredRadius_ * ball.radius)
+    , rim_(ball.radius)
+  {
+  }
+
+  [[nodiscard]] Patch operator()(double inside) noexcept
+  {
+    const BoxTree& tree = surface_.tree();
+    const BoxProbe probe(ball_.center);
+    const auto isNear = [&](const BoxTree::Node& box)
+    { return static_cast<double>(probe.squaredDistance(box)) < squaredRadius_; };
+    const auto isToVisit = [&](const BoxTree::Node& box)
+    {
+      if (!isNear(box))
+      {
+        return false;
+      }
+      const FacetSum* sum =
+        surface_.sums().of(static_cast<std::size_t>(&box - tree.nodes().data()));
+      const bool isWhole = sum != nullptr && squaredReach(box, ball_.center) <= squaredRadius_ &&
+        (ball_.turning == 0.0 || sum->areAllSeen(ball_.center, ball_.radius, ball_.turning));
+      if (isWhole)
+      {
+        add(*sum);
+      }
+      return !isWhole;
+    };
+    tree.search(isToVisit, [&](int i) { add(i); });
+    double seen = rim_.value(); // up to whole spheres
+    const double within = kSphere * inside - seen;
+    const double filled = within - kSphere * std::floor(within / kSphere);
+    if (isOpen_ || filled < kUnsure || filled > kSphere - kUnsure)
+    {
+      seen = 0.0;
+      tree.search(isNear, [&](int i) { seen += seenOf(tree.facets()[at(i)]); });
+      patch_.solidAngle = kSphere * inside - seen;
+    }
+    else
+    {
+      patch_.solidAngle = filled + faded_;
+    }
+    patch_.orientationSum += patch_.normal;
+    patch_.orientationWeight += patch_.weight;
+    patch_.solidAngleSlope /= squaredRadius_ * ball_.radius;
+    patch_.volume += byAngle_ * patch_.solidAngle;
+    patch_.moment += full_ * patch_.solidAngle;
+    return patch_;
+  }
+
+private:
+  // of what counts of a triangle, below 0 where its back is seen
+  [[nodiscard]] double seenOf(const Facet& facet) const noexcept
+  {
+    const Counted one = countedOf(facet, ball_);
+    return one.part * std::copysign(solidAngleOf(facet, ball_.center, squaredRadius_), -one.height);
+  }
+
+  void add(const FacetSum& sum) noexcept
+  {
+    const Eigen::Vector3d place = ball_.center - sum.origin;
+    const double from = squaredRadius_ - place.squaredNorm();
+    const double weight = from * sum.area + 2.0 * place.dot(sum.place) - sum.squares;
+    const Eigen::Vector3d turned = sum.normalPlace * place;
+    // of the heights of the center over the planes, and of those times w
+    const double over = sum.normal.dot(place) - sum.height;
+    const double weighed = from * over + 2.0 * place.dot(turned - sum.heightPlace) -
+      sum.normalSquares.dot(place) + sum.heightSquares;
+    patch_.weight += weight;
+    patch_.normal += from * sum.normal + 2.0 * turned - sum.normalSquares;
+    patch_.area += sum.normal;
+    patch_.volume -= kCone * over;
+    patch_.moment -= byArea_ * over + 0.2 * weighed;
+    patch_.slopes.normal += 2.0 * (sum.normalPlace - sum.normal * place.transpose());
+    patch_.slopes.weight += 2.0 * (sum.place - sum.area * place);
+    patch_.slopes.area += sum.area;
+  }
+
+  void add(int index) noexcept
+  {
+    const Facet& facet = surface_.tree().facets()[at(index)];
+    const DiscIntegral within = integrate(facet, ball_.center, squaredRadius_, rim_);
+    if (!(within.weight > 0.0))
+    {
+      return;
+    }
+    isOpen_ = isOpen_ || surface_.sums().isOpen(index);
+    const Counted one = countedOf(facet, ball_);
+    const double part = one.part;
+    const double nearer = -one.height * (byArea_ * within.area + 0.2 * within.weight);
+    const double below = -kCone * one.height * within.area;
+    if (part < 1.0)
+    {
+      addFading(facet, within, one, nearer, below);
+    }
+    const Eigen::Vector3d slope = part * within.slope + within.weight * one.change;
+    patch_.slopes.normal += facet.normal * slope.transpose();
+    patch_.slopes.weight += slope;
+    patch_.slopes.area += part * within.area;
+    patch_.weight += part * within.weight;
+    patch_.normal += part * within.weight * facet.normal;
+    patch_.area += part * within.area * facet.normal;
+    patch_.volume += part * below;
+    patch_.moment += part * nearer;
+    if (within.rim > 0.0)
+    {
+      const double reached = (squaredRadius_ - one.height * one.height) / (kNew * squaredRadius_);
+      const double rim = part * std::min(1.0, reached) * within.rim;
+      patch_.rim += rim * facet.normal;
+      patch_.solidAngleSlope += rim * one.height;
+    }
+  }
+
+  void addFading(const Facet& facet, const DiscIntegral& within, const Counted& one, double nearer,
+    double below) noexcept
+  {
+    const double seen =
+      std::copysign(solidAngleOf(facet, ball_.center, squaredRadius_), -one.height);
+    const double rest = 1.0 - one.part;
+    const SeamIntegral seams = seamsOf(facet, ball_.center, squaredRadius_);
+    const double moment = nearer - full_ * seen;
+    const double volume = below - byAngle_ * seen;
+    faded_ += rest * seen;
+    patch_.fading += rest * seams.moment - moment * one.change;
+    patch_.volumeFading += rest * seams.volume - volume * one.change;
+    patch_.turns.moment += moment * one.byTurning;
+    patch_.turns.volume += volume * one.byTurning;
+    patch_.turns.weight += within.weight * one.byTurning;
+    patch_.turns.normal += within.weight * one.byTurning * facet.normal;
+    patch_.orientationSum += rest * within.weight * facet.normal;
+    patch_.orientationWeight += rest * within.weight;
+  }
+
+  const Surface& surface_;
+  PatchBall ball_;
+  double squaredRadius_;
+  double byArea_;  // of the moment [m^2]
+  double byAngle_; // of the volume [m^3]
+  double full_;    // of w [m^5]
+  RimAngle rim_;
+  bool isOpen_ = false;
+  double faded_ = 0.0; // solid angle that does not count [rad^2]
+  Patch patch_;
+};
+
+} // namespace
+
+Patch patchWithin(const Surface& surface, const PatchBall& ball, double inside) noexcept
+{
+  return PatchSum(surface, ball)(inside);
+}
+
+} // namespace palp
