@@ -93,7 +93,19 @@ void LawOptions::addUncoatedTo(CLI::App& command)
   addBodyTo(command, *this);
 }
 
+void LawOptions::offerCorrectedAlone(CLI::App& command)
+{
+  command.remove_option(command.get_option("--law"));
+  addCorrectedLaw(command);
+}
+
 void LawOptions::addCorrectedTo(CLI::App& command)
+{
+  addCorrectedLaw(command);
+  addBodyTo(command, *this);
+}
+
+void LawOptions::addCorrectedLaw(CLI::App& command)
 {
   mode = LawMode::Corrected;
   addParsed(command, "--law", "corrected alone, which knows nodules", nameOf(mode),
@@ -105,7 +117,6 @@ void LawOptions::addCorrectedTo(CLI::App& command)
           ErrorCode::BadValue, "--law: only the corrected law knows nodules; leave it out");
       }
     });
-  addBodyTo(command, *this);
 }
 
 void LawOptions::addTo(CLI::App& command)

@@ -37,6 +37,9 @@ struct LawOptions
   /// The same for the corrected law alone, the only one that is offered.
   void addCorrectedTo(CLI::App& command);
 
+  /// Offers that law alone from now on, of options that were added.
+  void offerCorrectedAlone(CLI::App& command);
+
   /// Refuses all at once that only the corrected law takes, under another law.
   ///
   /// @param others   further options of this kind that were given
@@ -48,6 +51,9 @@ struct LawOptions
   /// @throws Error  BadFile: the shipped table of large strain, where it is needed; BadValue:
   ///                coatings, relaxation or friction under another law than the corrected one
   [[nodiscard]] LawSettings settings() const;
+
+private:
+  void addCorrectedLaw(CLI::App& command);
 };
 
 /// Reads parts of the modulus that decay, as in `0.3:50ms,0.2:1s`: fraction of the instantaneous

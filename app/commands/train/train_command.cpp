@@ -198,9 +198,12 @@ void addTrainCommand(CLI::App& app, const Renderer* pictures, int (*view)(const 
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command =
     app.add_subcommand("train", "Find hidden nodules by touch alone, and be graded");
-  options->press.tissue.options.mode = LawMode::Corrected;
   options->mesh.addTo(*command);
   options->press.addTo(*command);
+  options->press.tissue.options.offerCorrectedAlone(*command);
+  command->get_option("--young")
+    ->description("Young's modulus E, 1Pa to 10GPa")
+    ->default_str("that of healthy_liver");
   addSearch(*command, *options);
   command->footer(
     "Press, feel or read where the force rises, mark with M; Finish grades and shows the nodules.\n"

@@ -15,7 +15,6 @@ namespace
 {
 
 constexpr double kOneThird = 1.0 / 3.0;
-constexpr double kRounding = 1e-9; // [rad]
 
 // area and weight of the part with w > 0 of a triangle over which w is as good as linear
 DiscIntegral integratePositive(double area, const Eigen::Array3d& w) noexcept
@@ -72,7 +71,7 @@ double turnOf(const CutTriangle& one, RimAngle& rim) noexcept
   }
   if (middleInside)
   {
-    return turn < -kRounding ? turn + 2.0 * std::numbers::pi : turn;
+    return turn < -RimAngle::kRounding ? turn + 2.0 * std::numbers::pi : turn;
   }
   // from a middle upon a side half of the disc is seen, and rounding says in which sense
   return turn < -0.5 * std::numbers::pi ? turn + 2.0 * std::numbers::pi : std::max(0.0, turn);

@@ -30,7 +30,7 @@ RimAngle::RimAngle(double radius) noexcept
 
 void RimAngle::add(const Arc& arc, const Disc& disc) noexcept
 {
-  if (arc.cosine > 0.0 && arc.sine >= 0.0)
+  if (arc.cosine > 0.0 && arc.sine >= -kRounding * arc.cosine)
   {
     addShort(arc, disc);
     return;

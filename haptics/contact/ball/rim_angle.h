@@ -29,6 +29,9 @@ struct Arc
 class RimAngle
 {
 public:
+  /// A turn back by less is none: by rounding, where a corner is upon the ball [rad].
+  static constexpr double kRounding = 1e-9;
+
   /// @param radius  of the ball [m]
   explicit RimAngle(double radius) noexcept;
 

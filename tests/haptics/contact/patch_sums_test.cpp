@@ -103,6 +103,22 @@ TEST(PatchSums, AreThoseOfTheTrianglesOfABlockAndOfASheet)
   expectSameAbout(test::makeSurface(test::sheet(1.0, 30, wave)), 0.1, 5);
 }
 
+// corners upon the ball, where rounding says on which side they are: by 5, 12 and 13
+TEST(PatchSums, AreThoseOfTheTrianglesWhereCornersAreUponTheBall)
+{
+  const Surface grid = test::makeSurface(test::sheet(40.0, 41));
+  for (const double side : { 1.0, -1.0 })
+  {
+    for (const double off : { -1e-15, 0.0, 1e-15 })
+    {
+      const PatchBall ball{ { off, 0.0, side * 12.0 }, 13.0, 0.0 };
+      expectSame(grid, ball, side < 0.0 ? 1.0 : 0.0);
+      const double angle = patchWithin(grid, ball, side < 0.0 ? 1.0 : 0.0).solidAngle;
+      EXPECT_NEAR(angle, 2.0 * std::numbers::pi * (1.0 - side * 12.0 / 13.0), 1e-9);
+    }
+  }
+}
+
 // far from the origin sums of squares would be all rounding
 TEST(PatchSums, HoldFarFromTheOrigin)
 {
