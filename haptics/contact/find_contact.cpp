@@ -4,8 +4,8 @@
 #include "haptics/contact/ball/height_over.h"
 #include "haptics/contact/ball/patch.h"
 #include "haptics/contact/contact_shape.h"
-#include "haptics/contact/overlap/immersion.h"
-#include "haptics/contact/overlap/overlap.h"
+#include "haptics/contact/overlap/tool_solid.h"
+#include "haptics/contact/overlap_contact.h"
 #include "haptics/contact/paper_contact.h"
 #include "haptics/numerics/smooth_step.h"
 #include "haptics/surface/closest_point.h"
@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 namespace palp
@@ -26,7 +25,6 @@ constexpr double kGradual = 0.2;   // [-] where that begins, of the corner of th
 constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear majority
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kEntry = 0.4;     // [-] 1 / power by which a spread grows as an edge comes in
-constexpr double kSteeper = 4.9;   // [-] most of a slope of a tool without a round nose
 constexpr double kSudden = 4.0;    // [-] most of a slope where the far wall of a lobe comes in
 constexpr double kShallow = 0.75;  // [-] contact sizes inside, to which the nearest point counts
 constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
@@ -108,17 +106,10 @@ double heldPart(const Neighborhood& here) noexcept
   return smoothing > 0.0 ? smoothStep(held / (smoothing * smoothing)) : 1.0;
 }
 
-// A part of something, and how it changes as a place moves.
-struct Part
-{
-  double value = 1.0;
-  Eigen::Vector3d slope = Eigen::Vector3d::Zero(); // [1/m]
-};
-
 // Part of the curvature that is below the tool, where a coarse mesh tells it over a wider ball: a
 // smooth body's normals spread by twice as much as from where all of it counts. They are compared
 // over the wider ball, of radius wide [m] by the height, so that an edge comes in gradually.
-Part curvedPart(const Neighborhood& here, const NormalSum& normals, const Contact& contact,
+CountedPart curvedPart(const Neighborhood& here, const NormalSum& normals, const Contact& contact,
   const BallRule& rule, const Sloped& wide, const Eigen::Vector3d& heightSlope) noexcept
 {
   const auto [smoothing, growth] = here.size.smoothing;
@@ -202,7 +193,7 @@ Contact ballContact(
   const double reach = std::hypot(flat.value, wide.value);
   measureShape(contact, surface, tip,
     { position, reach, (flat.value + wide.value * wide.slope) / reach * flat.slope }, of);
-  const Part curved = curvedPart(*here, normals, contact, rule, wide, flat.slope);
+  const CountedPart curved = curvedPart(*here, normals, contact, rule, wide, flat.slope);
   contact.curvedPart = curved.value;
   const Height height = heightOver(flat.value, curved.value * contact.surfaceCurvature,
     curved.value * contact.curvatureSlope + contact.surfaceCurvature * curved.slope);
@@ -229,59 +220,6 @@ Contact ballContact(
   contact.slope = outward.norm();
   contact.normal = outward / contact.slope;
   contact.triangle = here->triangle;
-  return contact;
-}
-
-// What has no round nose is as deep as a smooth body would be that has as much in common with it.
-Contact overlapContact(
-  const Surface& surface, const Tip& tip, const ToolPose& pose, CurvatureOf of) noexcept
-{
-  const ToolSolid solid(tip);
-  const ToolFrame frame(pose);
-  const auto& axes = frame.axes;
-  const Overlap all = overlapOf(surface, solid, frame);
-  if (!(all.volume > 0.0 && all.weight > 0.0))
-  {
-    return {};
-  }
-  const NormalSum normals{ axes * all.normal, axes * all.normalSlope * axes.transpose(), all.weight,
-    axes * all.weightSlope };
-  const Eigen::Vector3d upward = all.normal.normalized(); // as the tool sees it
-  Contact contact;
-  measureNormal(contact, pose, normals);
-  const auto turned = [&](const Eigen::Vector3d& byNormal)
-  { return Eigen::Vector3d(contact.turning.transpose() * (axes * byNormal)); };
-  const Eigen::Vector3d falling = axes * all.area;
-  const Immersion flat = immersionOf(solid, upward, all.volume, all.volume / all.weight, 0.0);
-  const Sloped wide = shapeRadius(surface, tip, solid.radiusAt(flat.depth));
-  const Eigen::Vector3d place = all.place / all.weight;
-  const ShapeBall ball{ frame.apex + axes * place, wide.value,
-    wide.slope * (turned(flat.byNormal) - flat.byVolume * falling),
-    axes * (all.placeSlope - place * all.weightSlope.transpose()) / all.weight * axes.transpose() };
-  measureShape(contact, surface, tip, ball, CurvatureOf::Faces);
-  const double round = contact.surfaceCurvature; // without edges
-  const Immersion deep = immersionOf(solid, upward, all.volume, flat.depth, round);
-  contact.height = -deep.depth;
-  contact.rising =
-    deep.byVolume * falling - deep.byCurvature * contact.curvatureSlope - turned(deep.byNormal);
-  if (of == CurvatureOf::All)
-  {
-    measureShape(contact, surface, tip, ball, of);
-  }
-  contact.tilt = std::acos(std::clamp(upward.z(), -1.0, 1.0));
-  const double front = surface.closed() ? 1.0 : std::min(1.0, upward.z() / kFront);
-  contact.depth = front * deep.depth;
-  const Eigen::Vector3d outward = front * contact.rising;
-  // by more only at the very end of a pin's contact, and where triangles are missing or turned over
-  contact.slope = std::min(outward.norm(), kSteeper);
-  contact.normal = outward.normalized();
-  // the middle of what is in the tool, from that of a plane below the apex, and up to a round top
-  const Eigen::Vector3d foot =
-    axes * (place - deep.aside) + 0.25 / std::numbers::pi * deep.area * round * contact.bodyNormal;
-  contact.center = frame.apex + foot;
-  contact.relief = foot.dot(contact.bodyNormal) - deep.depth;
-  contact.triangle =
-    findClosestPoint(surface, contact.center, std::numeric_limits<double>::infinity()).triangle;
   return contact;
 }
 

@@ -12,6 +12,7 @@ struct Immersion
 {
   double depth = 0.0;                                 ///< of the apex, or the middle of a flat [m]
   double byVolume = 0.0;                              ///< [1/m^2]
+  double byLift = 0.0;                                ///< [1/m^3]
   double byCurvature = 0.0;                           ///< [m^2]
   Eigen::Vector3d byNormal = Eigen::Vector3d::Zero(); ///< [m]
   double area = 0.0;                                  ///< of the body's surface in the tool [m^2]

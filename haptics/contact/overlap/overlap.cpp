@@ -60,7 +60,11 @@ public:
         const std::int8_t bound = piece.bound(k);
         if (bound < codeOf(Bound::Bottom) && isBorder[at(bound)])
         {
-          sum_.area -= borderOf(layer, piece[k], piece[piece.after(k)]);
+          const Eigen::Vector3d& from = piece[k];
+          const Eigen::Vector3d& to = piece[piece.after(k)];
+          sum_.area -= borderOf(layer, from, to);
+          sum_.liftArea -= (from.z() * from.z() + from.z() * to.z() + to.z() * to.z()) / 6.0 *
+            Eigen::Vector3d::UnitZ().cross(to - from);
         }
       }
     }
@@ -77,6 +81,7 @@ private:
   {
     double area = 0.0;
     double flux = 0.0;
+    double squares = 0.0; // of the height
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
     const Eigen::Vector3d& first = piece[0];
     const double rise = first.z() - layer.pole;
@@ -87,6 +92,9 @@ private:
       const double part = 0.5 * normal.dot((a - first).cross(b - first));
       area += part;
       moment += part / 3.0 * (first + a + b);
+      squares += part / 12.0 *
+        (first.z() * first.z() + a.z() * a.z() + b.z() * b.z() +
+          (first.z() + a.z() + b.z()) * (first.z() + a.z() + b.z()));
       if (layer.twist != 0.0)
       {
         flux += part * layer.twist / (rise * (a.z() - layer.pole) * (b.z() - layer.pole));
@@ -96,6 +104,11 @@ private:
       ? (flux + area / 3.0) * normal.dot(first - layer.pole * Eigen::Vector3d::UnitZ())
       : normal.z() * (moment.z() + area * (layer.entering - layer.low));
     sum_.area += area * normal;
+    if (solid_->isPunch())
+    {
+      sum_.lift += 0.5 * normal.z() * squares;
+      sum_.liftArea += moment.z() * normal;
+    }
     if (!(normal.z() > 0.0))
     {
       return;

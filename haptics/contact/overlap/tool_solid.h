@@ -78,6 +78,12 @@ public:
     return flat_;
   }
 
+  /// Whether it is a shaft with a flat end, and nothing else.
+  [[nodiscard]] bool isPunch() const noexcept
+  {
+    return count_ == 1;
+  }
+
   /// Of a cross section that is as far from the axis to its sides [m^2].
   [[nodiscard]] static double crossArea(double radius) noexcept;
 

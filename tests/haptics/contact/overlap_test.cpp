@@ -281,14 +281,14 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(Tools, OverAnEdge, ::testing::Range<std::size_t>(0, kSharp.size()));
 
-TEST_P(OverAnEdge, HalfOfAToolIsAsDeepAsItsVolumeSays)
+TEST_P(OverAnEdge, HalfOfAToolIsAsDeepAsItsEnergySays)
 {
   const double depth = 1.5_mm;
   const Contact contact = at(upright(0.5 * kSize.x(), 1.3_mm, depth));
   const bool isCone = std::holds_alternative<ConeTip>(tip_);
   if (isCone || std::holds_alternative<PunchTip>(tip_))
   {
-    EXPECT_NEAR(contact.depth, (isCone ? std::cbrt(0.5) : 0.5) * depth, 1e-4 * depth);
+    EXPECT_NEAR(contact.depth, (isCone ? std::cbrt(0.5) : std::sqrt(0.5)) * depth, 1e-4 * depth);
   }
   EXPECT_GT(contact.normal.x(), 0.0); // away from what is left of the body
   EXPECT_LT(contact.center.x(), 0.5 * kSize.x());

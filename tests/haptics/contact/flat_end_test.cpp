@@ -1,0 +1,157 @@
+#include "haptics/contact/find_contact.h"
+#include "haptics/contact/overlap/flat_end.h"
+#include "haptics/contact/overlap/overlap.h"
+#include "haptics/units.h"
+#include "tests/support/surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kFlat = 5.0_mm;
+const Tip kPunch = PunchTip{ .radius = kFlat };
+
+// along y, by points of its profile from -x to x
+Surface extruded(const std::vector<Eigen::Vector2d>& profile)
+{
+  test::Mesh mesh;
+  for (const Eigen::Vector2d& point : profile)
+  {
+    mesh.first.emplace_back(point.x(), -40.0_mm, point.y());
+    mesh.first.emplace_back(point.x(), 40.0_mm, point.y());
+  }
+  for (int i = 0; i + 2 < static_cast<int>(mesh.first.size()); i += 2)
+  {
+    mesh.second.push_back({ i, i + 2, i + 3 });
+    mesh.second.push_back({ i, i + 3, i + 1 });
+  }
+  return test::makeSurface(mesh);
+}
+
+Contact pressed(const Surface& surface, const Eigen::Vector3d& apex, double lean = 0.0)
+{
+  const ToolPose pose{ .apex = apex,
+    .axis = { std::sin(lean), 0.0, -std::cos(lean) },
+    .velocity = Eigen::Vector3d::Zero() };
+  return findContact(surface, kPunch, pose, ContactRule::Exact);
+}
+
+// of a spring that is pressed by the depth
+Eigen::Vector3d springForce(const Contact& contact)
+{
+  return contact.depth * contact.slope * contact.normal;
+}
+
+// by springs below each part of the flat: the second floor adds from nothing on
+TEST(FlatEnd, OverAStepIsHeldByEachFloorAsFarAsItIsPressed)
+{
+  for (const double step : { 0.3_mm, 1.0_mm, 2.5_mm })
+  {
+    const Surface floors =
+      extruded({ { -40.0_mm, 0.0 }, { -1e-7, 0.0 }, { 1e-7, -step }, { 40.0_mm, -step } });
+    for (double depth = 0.1_mm; depth < 4.0_mm; depth += 0.1_mm)
+    {
+      for (const double part : { 0.5, 0.25 }) // of the radius that the upper floor reaches past
+      {
+        const double line = 1.0 - 2.0 * part; // from the middle, by the radius
+        const double upper =
+          (std::acos(line) - line * std::sqrt(1.0 - line * line)) / std::numbers::pi;
+        const double lower = std::max(0.0, depth - step);
+        const double squares = upper * depth * depth + (1.0 - upper) * lower * lower;
+        const Contact contact = pressed(floors, { line * kFlat, 0.7_mm, -depth });
+        EXPECT_NEAR(contact.depth, std::sqrt(squares), 3e-3 * depth) << step << " " << depth;
+        EXPECT_NEAR(springForce(contact).z(), upper * depth + (1.0 - upper) * lower, 3e-3 * depth)
+          << step << " " << depth;
+      }
+    }
+  }
+}
+
+// the force on a flat that leans is that of its mean depth, also where it is partly out
+TEST(FlatEnd, ThatLeansIsAsDeepAsItsMean)
+{
+  const Surface plane = extruded({ { -40.0_mm, 0.0 }, { 40.0_mm, 0.0 } });
+  for (const double lean : { 1.0_deg, 5.0_deg, 12.0_deg, 25.0_deg, 40.0_deg })
+  {
+    for (double depth = -3.0_mm; depth < 4.0_mm; depth += 0.17_mm)
+    {
+      constexpr int kCells = 400; // of the flat, along the lean
+      double mean = 0.0;
+      for (int i = 0; i < kCells; ++i)
+      {
+        const double x = -1.0 + 2.0 * (i + 0.5) / kCells;
+        const double chord = 2.0 * std::sqrt(1.0 - x * x) * 2.0 / kCells / std::numbers::pi;
+        mean += chord * std::max(0.0, depth / std::cos(lean) + x * kFlat * std::tan(lean));
+      }
+      const Contact contact = pressed(plane, { 1.0_mm, 2.0_mm, -depth }, lean);
+      EXPECT_NEAR(contact.depth, mean, 3e-3 * mean + 1e-7) << lean << " " << depth;
+    }
+  }
+}
+
+// by integrals over the ball's rings
+TEST(FlatEnd, InABallIsThatOfItsTopAndInAHollowThatOfItsMiddle)
+{
+  for (const double radius : { 20.0_mm, 50.0_mm, -60.0_mm })
+  {
+    const double rise = 0.5 * kFlat * kFlat / radius;
+    for (const double depth : { 0.02_mm, 0.2_mm, 0.6_mm, 1.5_mm, 4.0_mm })
+    {
+      double volume = 0.0;
+      double lift = 0.0;
+      constexpr int kRings = 20'000;
+      for (int i = 0; i < kRings; ++i)
+      {
+        const double r = kFlat * (i + 0.5) / kRings;
+        const double ring = 2.0 * std::numbers::pi * r * kFlat / kRings;
+        const double over = std::max(0.0, depth - rise * r * r / (kFlat * kFlat));
+        volume += ring * over;
+        lift += 0.5 * ring * over * over;
+      }
+      const Immersion there =
+        flatImmersionOf(kFlat, Eigen::Vector3d::UnitZ(), { volume, lift }, 1.0 / radius);
+      EXPECT_NEAR(there.depth, depth, 1e-5 * depth) << radius;
+    }
+  }
+}
+
+TEST(FlatEnd, DepthChangesAsItsSlopesSay)
+{
+  for (const double lean : { 0.0, 0.1, 0.6 })
+  {
+    for (const double curvature : { -15.0, 0.0, 1e-9, 12.0, 60.0 })
+    {
+      for (const double volume : { 1e-10, 3e-9, 6e-8 })
+      {
+        const Eigen::Vector3d normal(0.6 * std::sin(lean), 0.8 * std::sin(lean), std::cos(lean));
+        const double lift = 5.0 * volume * volume / (kFlat * kFlat);
+        const auto at = [&](double byVolume, double byLift, double byCurvature)
+        {
+          return flatImmersionOf(kFlat, normal,
+            { volume * (1.0 + byVolume), lift * (1.0 + byLift) }, curvature + byCurvature)
+            .depth;
+        };
+        const Immersion here = flatImmersionOf(kFlat, normal, { volume, lift }, curvature);
+        constexpr double step = 1e-6;
+        const auto slope = [&](double v, double l, double k)
+        { return (at(v * step, l * step, k * step) - at(-v * step, -l * step, -k * step)) / step; };
+        const double scale = std::abs(here.depth) + 1e-6;
+        EXPECT_NEAR(0.5 * slope(1.0, 0.0, 0.0), volume * here.byVolume, 1e-6 * scale);
+        EXPECT_NEAR(0.5 * slope(0.0, 1.0, 0.0), lift * here.byLift, 1e-6 * scale);
+        EXPECT_NEAR(0.5 * slope(0.0, 0.0, 1.0), here.byCurvature, 1e-5 * kFlat * kFlat);
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace palp
