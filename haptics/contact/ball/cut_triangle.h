@@ -3,7 +3,7 @@
 #include "haptics/contact/ball/rim_angle.h"
 #include "haptics/surface/tree/box_tree.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 
