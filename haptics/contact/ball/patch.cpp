@@ -84,19 +84,7 @@ public:
       return !isWhole;
     };
     tree.search(isToVisit, [&](int i) { add(i); });
-    double seen = rim_.value(); // up to whole spheres
-    const double within = kSphere * inside - seen;
-    const double filled = within - kSphere * std::floor(within / kSphere);
-    if (isOpen_ || filled < kUnsure || filled > kSphere - kUnsure)
-    {
-      seen = 0.0;
-      tree.search(isNear, [&](int i) { seen += seenOf(tree.facets()[at(i)]); });
-      patch_.solidAngle = kSphere * inside - seen;
-    }
-    else
-    {
-      patch_.solidAngle = filled + faded_;
-    }
+    patch_.solidAngle = bodyAngle(kSphere * inside, isNear);
     patch_.orientationSum += patch_.normal;
     patch_.orientationWeight += patch_.weight;
     patch_.solidAngleSlope /= squaredRadius_ * ball_.radius;
@@ -106,11 +94,33 @@ public:
   }
 
 private:
-  // of what counts of a triangle, below 0 where its back is seen
-  [[nodiscard]] double seenOf(const Facet& facet) const noexcept
+  // Of the sphere within the body, as far as its triangles count.
+  // @param without  the same were no triangle seen from the center [rad^2]
+  template <typename Near>
+  [[nodiscard]] double bodyAngle(double without, Near isNear) const noexcept
   {
-    const Counted one = countedOf(facet, ball_);
-    return one.part * std::copysign(solidAngleOf(facet, ball_.center, squaredRadius_), -one.height);
+    const double within = without - rim_.value(); // up to whole spheres
+    const double filled = within - kSphere * std::floor(within / kSphere);
+    if (!isOpen_ && filled > kUnsure && filled < kSphere - kUnsure)
+    {
+      return filled + faded_;
+    }
+    const BoxTree& tree = surface_.tree();
+    double seen = 0.0;
+    const auto see = [&](int i)
+    {
+      const Facet& facet = tree.facets()[at(i)];
+      const Counted one = countedOf(facet, ball_);
+      seen += one.part * seenOf(facet, one.height);
+    };
+    tree.search(isNear, see);
+    return without - seen;
+  }
+
+  // the part of a triangle in the ball, below 0 where its back is seen
+  [[nodiscard]] double seenOf(const Facet& facet, double height) const noexcept
+  {
+    return std::copysign(solidAngleOf(facet, ball_.center, squaredRadius_), -height);
   }
 
   void add(const FacetSum& sum) noexcept
@@ -171,8 +181,7 @@ private:
   void addFading(const Facet& facet, const DiscIntegral& within, const Counted& one, double nearer,
     double below) noexcept
   {
-    const double seen =
-      std::copysign(solidAngleOf(facet, ball_.center, squaredRadius_), -one.height);
+    const double seen = seenOf(facet, one.height);
     const double rest = 1.0 - one.part;
     const SeamIntegral seams = seamsOf(facet, ball_.center, squaredRadius_);
     const double moment = nearer - full_ * seen;

@@ -82,6 +82,35 @@ Leveling levelingOf(double radius, double volume, double tangent) noexcept
   return { part, rise * mean / volume, -rise * mean / tangent };
 }
 
+// of a level flat in a paraboloid
+struct Sunk
+{
+  double depth;       // of the middle [m]
+  double byLift;      // [1/m^3]
+  double byCurvature; // [m^2]
+  double area;        // of the body's surface below the flat [m^2]
+};
+
+Sunk sunkIn(double radius, double lift, double curvature) noexcept
+{
+  const double square = radius * radius;
+  const double area = kHalfTurn * square;
+  const double top = curvature * square;    // twice what the body rises over the rim
+  const double variance = top * top / 48.0; // of that rise
+  const double squared = 2.0 * lift / area; // depth, in the mean
+  if (squared > 4.0 * variance)
+  {
+    const double root = std::sqrt(squared - variance);
+    return { 0.25 * top + root, 1.0 / (area * root), square * (0.25 - top / (48.0 * root)), area };
+  }
+  // a cap, or in a hollow a ring, which is deepest at the rim
+  const double deepest = std::cbrt(3.0 * std::abs(curvature) * lift / kHalfTurn);
+  const bool isRing = curvature < 0.0;
+  return { deepest + (isRing ? 0.5 * top : 0.0), deepest / (3.0 * lift),
+    deepest / (3.0 * curvature) + (isRing ? 0.5 * square : 0.0),
+    2.0 * kHalfTurn * deepest / std::abs(curvature) };
+}
+
 } // namespace
 
 Immersion flatImmersionOf(
@@ -90,35 +119,22 @@ Immersion flatImmersionOf(
   const double across = outward.head<2>().norm();
   const double along = std::max(kMostLean, outward.z());
   const Leveling level = levelingOf(radius, pressed.volume, across / along);
-  const double lift = level.part * pressed.lift;
-
   const Leveled bent =
     curvature > 0.0 ? Leveled{ curvature, 1.0, 0.0 } : leveled(curvature, radius);
-  const double square = radius * radius;
-  const double area = kHalfTurn * square;
-  const double top = bent.value * square;        // twice the rise of the body over the flat
-  const double variance = top * top / 48.0;      // of that rise, squared
-  const double mean = 2.0 * lift / area;         // squared depth
-  const bool isCovered = mean >= 4.0 * variance; // else a cap, or a ring in a hollow
-  const double root = std::sqrt(std::max(1e-300, mean - variance));
-  const double rise = std::cbrt(3.0 * std::abs(bent.value) * lift / kHalfTurn);
-  Immersion result;
-  result.depth = isCovered ? 0.25 * top + root : rise + std::min(0.0, 0.5 * top);
-  const double byLift = isCovered ? 1.0 / (area * root) : rise / (3.0 * lift);
-  result.byCurvature = bent.slope *
-    (isCovered      ? 0.25 * square - variance / (bent.value == 0.0 ? 1.0 : bent.value) / root
-        : top > 0.0 ? rise / (3.0 * bent.value)
-                    : rise / (3.0 * bent.value) + 0.5 * square);
-  result.byLift = byLift * level.part;
-  result.byVolume = byLift * pressed.lift * level.byVolume;
+  const Sunk sunk = sunkIn(radius, level.part * pressed.lift, bent.value);
+  const double byPart = sunk.byLift * pressed.lift;
+  Immersion result{ .depth = sunk.depth,
+    .byVolume = byPart * level.byVolume,
+    .byLift = sunk.byLift * level.part,
+    .byCurvature = bent.slope * sunk.byCurvature,
+    .area = sunk.area };
   if (across > 0.0)
   {
     Eigen::Vector3d turning = Eigen::Vector3d::Zero(); // of the tangent
     turning.head<2>() = outward.head<2>() / (across * along);
     turning.z() = outward.z() > kMostLean ? -across / (along * along) : 0.0;
-    result.byNormal = byLift * pressed.lift * level.byTangent * turning;
+    result.byNormal = byPart * level.byTangent * turning;
   }
-  result.area = isCovered ? area : 2.0 * kHalfTurn * rise / std::abs(bent.value);
   return result;
 }
 
