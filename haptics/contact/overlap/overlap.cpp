@@ -76,32 +76,45 @@ public:
   }
 
 private:
-  void addPiece(
-    const Layer& layer, const Piece& piece, const Eigen::Vector3d& normal, bool isLowest) noexcept
+  // Integrals over a piece.
+  struct Integrals
   {
     double area = 0.0;
-    double flux = 0.0;
+    double flux = 0.0;    // of the part of the field that the twist is
     double squares = 0.0; // of the height
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  };
+
+  static Integrals integralsOf(
+    const Layer& layer, const Piece& piece, const Eigen::Vector3d& normal) noexcept
+  {
+    Integrals sum;
     const Eigen::Vector3d& first = piece[0];
     const double rise = first.z() - layer.pole;
     for (std::size_t k = 1; k + 1 < piece.size(); ++k)
     {
       const Eigen::Vector3d& a = piece[k];
       const Eigen::Vector3d& b = piece[k + 1];
+      const Eigen::Vector3d corners = first + a + b;
       const double part = 0.5 * normal.dot((a - first).cross(b - first));
-      area += part;
-      moment += part / 3.0 * (first + a + b);
-      squares += part / 12.0 *
-        (first.z() * first.z() + a.z() * a.z() + b.z() * b.z() +
-          (first.z() + a.z() + b.z()) * (first.z() + a.z() + b.z()));
+      sum.area += part;
+      sum.moment += part / 3.0 * corners;
+      sum.squares += part / 12.0 *
+        (first.z() * first.z() + a.z() * a.z() + b.z() * b.z() + corners.z() * corners.z());
       if (layer.twist != 0.0)
       {
-        flux += part * layer.twist / (rise * (a.z() - layer.pole) * (b.z() - layer.pole));
+        sum.flux += part * layer.twist / (rise * (a.z() - layer.pole) * (b.z() - layer.pole));
       }
     }
+    return sum;
+  }
+
+  void addPiece(
+    const Layer& layer, const Piece& piece, const Eigen::Vector3d& normal, bool isLowest) noexcept
+  {
+    const auto [area, flux, squares, moment] = integralsOf(layer, piece, normal);
     sum_.volume += layer.slope > 0.0
-      ? (flux + area / 3.0) * normal.dot(first - layer.pole * Eigen::Vector3d::UnitZ())
+      ? (flux + area / 3.0) * normal.dot(piece[0] - layer.pole * Eigen::Vector3d::UnitZ())
       : normal.z() * (moment.z() + area * (layer.entering - layer.low));
     sum_.area += area * normal;
     if (solid_->isPunch())

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <random>
 #include <vector>
 
 namespace palp
@@ -94,6 +95,40 @@ TEST(FlatEnd, ThatLeansIsAsDeepAsItsMean)
       }
       const Contact contact = pressed(plane, { 1.0_mm, 2.0_mm, -depth }, lean);
       EXPECT_NEAR(contact.depth, mean, 3e-3 * mean + 1e-7) << lean << " " << depth;
+    }
+  }
+}
+
+TEST(FlatEnd, LiftAndLeanChangeAsTheirSlopesSay)
+{
+  const Surface block = test::makeSurface(test::block({ 60.0_mm, 60.0_mm, 30.0_mm }, 16));
+  const Surface sheet = test::makeSurface(
+    test::sheet(60.0_mm, 30, [](double x, double y) { return 3.0 * x * x - 2.0 * x * y; }));
+  const ToolSolid solid(kPunch);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  constexpr double kStep = 1e-8;
+  for (int i = 0; i < 300; ++i)
+  {
+    const Surface& surface = i % 2 == 0 ? block : sheet;
+    const Eigen::Vector3d axis(0.4 * unit(random), 0.4 * unit(random), -1.0);
+    ToolPose pose{ .apex = { 33.0_mm * unit(random), 33.0_mm * unit(random),
+                     4.0_mm * unit(random) },
+      .axis = axis.normalized(),
+      .velocity = Eigen::Vector3d::Zero() };
+    const Overlap here = overlapOf(surface, solid, ToolFrame(pose));
+    const Eigen::Matrix3d axes = ToolFrame(pose).axes;
+    for (Eigen::Index k = 0; k < 3; ++k)
+    {
+      const Eigen::Vector3d move = kStep * Eigen::Vector3d::Unit(k);
+      ToolPose after = pose;
+      after.apex += move;
+      const Overlap there = overlapOf(surface, solid, ToolFrame(after));
+      after.apex -= 2.0 * move;
+      const Overlap before = overlapOf(surface, solid, ToolFrame(after));
+      EXPECT_NEAR((there.lift - before.lift) / (2.0 * kStep), -(axes * here.liftArea)[k], 1e-12);
+      const Eigen::Vector3d leaning = (there.lean - before.lean) / (2.0 * kStep);
+      EXPECT_LT((leaning - here.leanSlope * axes.transpose().col(k)).norm(), 1e-9);
     }
   }
 }
