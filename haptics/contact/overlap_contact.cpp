@@ -36,26 +36,6 @@ CountedPart hollowPart(const NormalSum& normals, const Contact& contact, double 
       (normals.shareSlope() / ofHollow + 2.0 * entered / curvature * contact.curvatureSlope) };
 }
 
-// How deep a tool is, and how that falls as it moves in a body whose curvature stays.
-struct Deep
-{
-  Immersion here;
-  Eigen::Vector3d rising; // [-]
-};
-
-Deep punchIn(const ToolSolid& solid, const Eigen::Matrix3d& axes, const Overlap& all,
-  double curvature) noexcept
-{
-  const Eigen::Vector3d lean = all.lean.normalized();
-  const Immersion here =
-    flatImmersionOf(solid.flatRadius(), lean, { all.volume, all.lift }, curvature);
-  const Eigen::Vector3d turning = here.byNormal - lean.dot(here.byNormal) * lean;
-  return { here,
-    axes *
-      (here.byVolume * all.area + here.byLift * all.liftArea -
-        all.leanSlope.transpose() * turning / all.lean.norm()) };
-}
-
 } // namespace
 
 Contact overlapContact(
@@ -89,14 +69,12 @@ Contact overlapContact(
   const double round = hollow.value * contact.surfaceCurvature; // without edges
   const Eigen::Vector3d rounding =
     hollow.value * contact.curvatureSlope + contact.surfaceCurvature * hollow.slope;
-  const auto stackIn = [&]
-  {
-    const Immersion here = immersionOf(solid, upward, all.volume, flat.depth, round);
-    return Deep{ here, here.byVolume * falling - turned(here.byNormal) };
-  };
-  const auto [deep, rising] = solid.isPunch() ? punchIn(solid, axes, all, round) : stackIn();
+  const Immersion deep = solid.isPunch()
+    ? flatImmersionOf(solid.flatRadius(), all.lift, round)
+    : immersionOf(solid, upward, all.volume, flat.depth, round);
   contact.height = -deep.depth;
-  contact.rising = rising - deep.byCurvature * rounding;
+  contact.rising = deep.byVolume * falling + deep.byLift * (axes * all.liftArea) -
+    deep.byCurvature * rounding - turned(deep.byNormal);
   if (of == CurvatureOf::All)
   {
     measureShape(contact, surface, tip, ball, of);

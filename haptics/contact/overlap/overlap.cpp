@@ -149,11 +149,6 @@ private:
     sum_.placeSlope += facing * shifting;
     sum_.weightSlope += facing * widening;
     sum_.normalSlope += facing * normal * widening.transpose();
-    if (solid_->isPunch())
-    {
-      sum_.lean += facing * moment.z() * normal;
-      sum_.leanSlope += facing * normal * (shifting.row(2) - area * Eigen::RowVector3d::UnitZ());
-    }
   }
 
   // and neither of the triangle nor between two layers

@@ -32,11 +32,8 @@ struct Overlap
 {
   double volume = 0.0;                                  ///< [m^3]
   Eigen::Vector3d area = Eigen::Vector3d::Zero();       ///< of the outward normal: -d volume [m^2]
-  double lift = 0.0;                                    ///< of a punch alone; see Pressed [m^4]
+  double lift = 0.0;                                    ///< of it, over the flat of a punch [m^4]
   Eigen::Vector3d liftArea = Eigen::Vector3d::Zero();   ///< as area: -d lift [m^3]
-  Eigen::Vector3d lean = Eigen::Vector3d::Zero();       ///< as normal, times how far over the flat
-                                                        ///< of a punch [m^3]
-  Eigen::Matrix3d leanSlope = Eigen::Matrix3d::Zero();  ///< as the tool moves, a column each [m^2]
   double weight = 0.0;                                  ///< of what faces the tool [m^2]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();     ///< of that, times the outward normal [m^2]
   Eigen::Vector3d place = Eigen::Vector3d::Zero();      ///< and times the place [m^3]

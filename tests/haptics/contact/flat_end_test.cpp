@@ -78,7 +78,7 @@ TEST(FlatEnd, OverAStepIsHeldByEachFloorAsFarAsItIsPressed)
 }
 
 // the force on a flat that leans is that of its mean depth, also where it is partly out
-TEST(FlatEnd, ThatLeansIsAsDeepAsItsMean)
+TEST(FlatEnd, ThatLeansIsPushedByItsMeanDepth)
 {
   const Surface plane = extruded({ { -40.0_mm, 0.0 }, { 40.0_mm, 0.0 } });
   for (const double lean : { 1.0_deg, 5.0_deg, 12.0_deg, 25.0_deg, 40.0_deg })
@@ -94,12 +94,14 @@ TEST(FlatEnd, ThatLeansIsAsDeepAsItsMean)
         mean += chord * std::max(0.0, depth / std::cos(lean) + x * kFlat * std::tan(lean));
       }
       const Contact contact = pressed(plane, { 1.0_mm, 2.0_mm, -depth }, lean);
-      EXPECT_NEAR(contact.depth, mean, 3e-3 * mean + 1e-7) << lean << " " << depth;
+      const double along =
+        springForce(contact).dot(Eigen::Vector3d(-std::sin(lean), 0.0, std::cos(lean)));
+      EXPECT_NEAR(along, mean, 3e-3 * mean + 1e-7) << lean << " " << depth;
     }
   }
 }
 
-TEST(FlatEnd, LiftAndLeanChangeAsTheirSlopesSay)
+TEST(FlatEnd, LiftChangesAsItsAreaSays)
 {
   const Surface block = test::makeSurface(test::block({ 60.0_mm, 60.0_mm, 30.0_mm }, 16));
   const Surface sheet = test::makeSurface(
@@ -127,8 +129,6 @@ TEST(FlatEnd, LiftAndLeanChangeAsTheirSlopesSay)
       after.apex -= 2.0 * move;
       const Overlap before = overlapOf(surface, solid, ToolFrame(after));
       EXPECT_NEAR((there.lift - before.lift) / (2.0 * kStep), -(axes * here.liftArea)[k], 1e-12);
-      const Eigen::Vector3d leaning = (there.lean - before.lean) / (2.0 * kStep);
-      EXPECT_LT((leaning - here.leanSlope * axes.transpose().col(k)).norm(), 1e-9);
     }
   }
 }
@@ -141,7 +141,6 @@ TEST(FlatEnd, InABallIsThatOfItsTopAndInAHollowThatOfItsMiddle)
     const double rise = 0.5 * kFlat * kFlat / radius;
     for (const double depth : { 0.02_mm, 0.2_mm, 0.6_mm, 1.5_mm, 4.0_mm })
     {
-      double volume = 0.0;
       double lift = 0.0;
       constexpr int kRings = 20'000;
       for (int i = 0; i < kRings; ++i)
@@ -149,11 +148,9 @@ TEST(FlatEnd, InABallIsThatOfItsTopAndInAHollowThatOfItsMiddle)
         const double r = kFlat * (i + 0.5) / kRings;
         const double ring = 2.0 * std::numbers::pi * r * kFlat / kRings;
         const double over = std::max(0.0, depth - rise * r * r / (kFlat * kFlat));
-        volume += ring * over;
         lift += 0.5 * ring * over * over;
       }
-      const Immersion there =
-        flatImmersionOf(kFlat, Eigen::Vector3d::UnitZ(), { volume, lift }, 1.0 / radius);
+      const Immersion there = flatImmersionOf(kFlat, lift, 1.0 / radius);
       EXPECT_NEAR(there.depth, depth, 1e-5 * depth) << radius;
     }
   }
@@ -161,29 +158,23 @@ TEST(FlatEnd, InABallIsThatOfItsTopAndInAHollowThatOfItsMiddle)
 
 TEST(FlatEnd, DepthChangesAsItsSlopesSay)
 {
-  for (const double lean : { 0.0, 0.1, 0.6 })
+  for (const double curvature : { -15.0, 0.0, 1e-9, 12.0, 60.0 })
   {
-    for (const double curvature : { -15.0, 0.0, 1e-9, 12.0, 60.0 })
+    for (const double lift : { 1e-15, 2e-13, 5e-11 })
     {
-      for (const double volume : { 1e-10, 3e-9, 6e-8 })
+      const Immersion here = flatImmersionOf(kFlat, lift, curvature);
+      constexpr double step = 1e-6;
+      const auto slope = [&](double l, double k)
       {
-        const Eigen::Vector3d normal(0.6 * std::sin(lean), 0.8 * std::sin(lean), std::cos(lean));
-        const double lift = 5.0 * volume * volume / (kFlat * kFlat);
-        const auto at = [&](double byVolume, double byLift, double byCurvature)
+        const auto at = [&](double part)
         {
-          return flatImmersionOf(kFlat, normal,
-            { volume * (1.0 + byVolume), lift * (1.0 + byLift) }, curvature + byCurvature)
+          return flatImmersionOf(kFlat, lift * (1.0 + part * l * step), curvature + part * k * step)
             .depth;
         };
-        const Immersion here = flatImmersionOf(kFlat, normal, { volume, lift }, curvature);
-        constexpr double step = 1e-6;
-        const auto slope = [&](double v, double l, double k)
-        { return (at(v * step, l * step, k * step) - at(-v * step, -l * step, -k * step)) / step; };
-        const double scale = std::abs(here.depth) + 1e-6;
-        EXPECT_NEAR(0.5 * slope(1.0, 0.0, 0.0), volume * here.byVolume, 1e-6 * scale);
-        EXPECT_NEAR(0.5 * slope(0.0, 1.0, 0.0), lift * here.byLift, 1e-6 * scale);
-        EXPECT_NEAR(0.5 * slope(0.0, 0.0, 1.0), here.byCurvature, 1e-5 * kFlat * kFlat);
-      }
+        return (at(1.0) - at(-1.0)) / (2.0 * step);
+      };
+      EXPECT_NEAR(slope(1.0, 0.0), lift * here.byLift, 1e-6 * std::abs(here.depth) + 1e-12);
+      EXPECT_NEAR(slope(0.0, 1.0), here.byCurvature, 1e-5 * kFlat * kFlat);
     }
   }
 }
