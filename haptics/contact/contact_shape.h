@@ -11,13 +11,6 @@
 namespace palp
 {
 
-/// A part of something that counts, and how it changes as the tool moves.
-struct CountedPart
-{
-  double value = 1.0;                              ///< [-]
-  Eigen::Vector3d slope = Eigen::Vector3d::Zero(); ///< [1/m]
-};
-
 /// What a body's normals below a tool sum up to, and how that changes as the tool moves.
 struct NormalSum
 {

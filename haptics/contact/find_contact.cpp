@@ -106,10 +106,17 @@ double heldPart(const Neighborhood& here) noexcept
   return smoothing > 0.0 ? smoothStep(held / (smoothing * smoothing)) : 1.0;
 }
 
+// A part of something, and how it changes as a place moves.
+struct Part
+{
+  double value = 1.0;
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero(); // [1/m]
+};
+
 // Part of the curvature that is below the tool, where a coarse mesh tells it over a wider ball: a
 // smooth body's normals spread by twice as much as from where all of it counts. They are compared
 // over the wider ball, of radius wide [m] by the height, so that an edge comes in gradually.
-CountedPart curvedPart(const Neighborhood& here, const NormalSum& normals, const Contact& contact,
+Part curvedPart(const Neighborhood& here, const NormalSum& normals, const Contact& contact,
   const BallRule& rule, const Sloped& wide, const Eigen::Vector3d& heightSlope) noexcept
 {
   const auto [smoothing, growth] = here.size.smoothing;
@@ -193,7 +200,7 @@ Contact ballContact(
   const double reach = std::hypot(flat.value, wide.value);
   measureShape(contact, surface, tip,
     { position, reach, (flat.value + wide.value * wide.slope) / reach * flat.slope }, of);
-  const CountedPart curved = curvedPart(*here, normals, contact, rule, wide, flat.slope);
+  const Part curved = curvedPart(*here, normals, contact, rule, wide, flat.slope);
   contact.curvedPart = curved.value;
   const Height height = heightOver(flat.value, curved.value * contact.surfaceCurvature,
     curved.value * contact.curvatureSlope + contact.surfaceCurvature * curved.slope);

@@ -4,13 +4,13 @@
 #include "haptics/contact/overlap/flat_end.h"
 #include "haptics/contact/overlap/immersion.h"
 #include "haptics/contact/overlap/overlap.h"
-#include "haptics/numerics/smooth_step.h"
 #include "haptics/surface/closest_point.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace palp
 {
@@ -20,20 +20,22 @@ namespace
 constexpr double kSteepestSlope = 4.9; // [-] most of a slope of a tool without a round nose
 constexpr double kFacing = 0.1; // [-] cosine over which the back of a sheet becomes its front
 
-// Part of a hollow that is one, and no step between floors that a flat meets: in one a radius wide
-// the normals spread.
-CountedPart hollowPart(const NormalSum& normals, const Contact& contact, double radius) noexcept
+// What below a punch counts as its shape: about the middle of its flat and along its axis, whatever
+// of the body the flat meets, which comes in and goes out at once.
+void measureBelowFlat(Contact& contact, const Surface& surface, const Tip& tip,
+  const ToolPose& pose, const Overlap& all, CurvatureOf of) noexcept
 {
-  const double curvature = contact.surfaceCurvature;
-  const double ofHollow = 0.25 * curvature * curvature * radius * radius;
-  const double entered = normals.spread() / ofHollow;
-  if (!(curvature < 0.0 && entered < 1.0))
-  {
-    return {};
-  }
-  return { smoothStep(entered),
-    -6.0 * entered * (1.0 - entered) *
-      (normals.shareSlope() / ofHollow + 2.0 * entered / curvature * contact.curvatureSlope) };
+  const Eigen::Vector3d upward = -pose.axis;
+  const double area = std::numbers::pi * flatRadius(tip) * flatRadius(tip);
+  const Eigen::Vector3d sinking = ToolFrame(pose).axes * all.area / area;
+  const Sloped wide = shapeRadius(surface, tip, { flatRadius(tip) });
+  const ShapeBall ball{ pose.apex + all.volume / area * upward, wide.value, Eigen::Vector3d::Zero(),
+    Eigen::Matrix3d::Identity() - upward * sinking.transpose() };
+  const Eigen::Vector3d normal = std::exchange(contact.bodyNormal, upward);
+  const Eigen::Matrix3d turning = std::exchange(contact.turning, Eigen::Matrix3d::Zero());
+  measureShape(contact, surface, tip, ball, of);
+  contact.bodyNormal = normal;
+  contact.turning = turning;
 }
 
 } // namespace
@@ -63,21 +65,22 @@ Contact overlapContact(
   const ShapeBall ball{ frame.apex + axes * place, wide.value,
     wide.slope * (turned(flat.byNormal) - flat.byVolume * falling),
     axes * (all.placeSlope - place * all.weightSlope.transpose()) / all.weight * axes.transpose() };
-  measureShape(contact, surface, tip, ball, CurvatureOf::Faces);
-  const CountedPart hollow =
-    solid.isPunch() ? hollowPart(normals, contact, solid.flatRadius()) : CountedPart{};
-  const double round = hollow.value * contact.surfaceCurvature; // without edges
-  const Eigen::Vector3d rounding =
-    hollow.value * contact.curvatureSlope + contact.surfaceCurvature * hollow.slope;
+  const auto measure = [&](CurvatureOf what)
+  {
+    solid.isPunch() ? measureBelowFlat(contact, surface, tip, pose, all, what)
+                    : measureShape(contact, surface, tip, ball, what);
+  };
+  measure(CurvatureOf::Faces);
+  const double round = contact.surfaceCurvature; // without edges
   const Immersion deep = solid.isPunch()
     ? flatImmersionOf(solid.flatRadius(), all.lift, round)
     : immersionOf(solid, upward, all.volume, flat.depth, round);
   contact.height = -deep.depth;
   contact.rising = deep.byVolume * falling + deep.byLift * (axes * all.liftArea) -
-    deep.byCurvature * rounding - turned(deep.byNormal);
+    deep.byCurvature * contact.curvatureSlope - turned(deep.byNormal);
   if (of == CurvatureOf::All)
   {
-    measureShape(contact, surface, tip, ball, of);
+    measure(of);
   }
   contact.tilt = std::acos(std::clamp(upward.z(), -1.0, 1.0));
   const double front = surface.closed() ? 1.0 : std::min(1.0, upward.z() / kFacing);

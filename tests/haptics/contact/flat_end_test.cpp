@@ -21,19 +21,20 @@ using namespace units::literals;
 constexpr double kFlat = 5.0_mm;
 const Tip kPunch = PunchTip{ .radius = kFlat };
 
-// along y, by points of its profile from -x to x
-Surface extruded(const std::vector<Eigen::Vector2d>& profile)
+// side by side: floors from x to x at a height each
+Surface floorsOf(const std::vector<Eigen::Vector3d>& floors)
 {
   test::Mesh mesh;
-  for (const Eigen::Vector2d& point : profile)
+  for (const Eigen::Vector3d& floor : floors)
   {
-    mesh.first.emplace_back(point.x(), -40.0_mm, point.y());
-    mesh.first.emplace_back(point.x(), 40.0_mm, point.y());
-  }
-  for (int i = 0; i + 2 < static_cast<int>(mesh.first.size()); i += 2)
-  {
-    mesh.second.push_back({ i, i + 2, i + 3 });
-    mesh.second.push_back({ i, i + 3, i + 1 });
+    const int first = static_cast<int>(mesh.first.size());
+    for (const double x : { floor[0], floor[1] })
+    {
+      mesh.first.emplace_back(x, -40.0_mm, floor[2]);
+      mesh.first.emplace_back(x, 40.0_mm, floor[2]);
+    }
+    mesh.second.push_back({ first, first + 2, first + 3 });
+    mesh.second.push_back({ first, first + 3, first + 1 });
   }
   return test::makeSurface(mesh);
 }
@@ -57,8 +58,7 @@ TEST(FlatEnd, OverAStepIsHeldByEachFloorAsFarAsItIsPressed)
 {
   for (const double step : { 0.3_mm, 1.0_mm, 2.5_mm })
   {
-    const Surface floors =
-      extruded({ { -40.0_mm, 0.0 }, { -1e-7, 0.0 }, { 1e-7, -step }, { 40.0_mm, -step } });
+    const Surface floors = floorsOf({ { -40.0_mm, 0.0, 0.0 }, { 0.0, 40.0_mm, -step } });
     for (double depth = 0.1_mm; depth < 4.0_mm; depth += 0.1_mm)
     {
       for (const double part : { 0.5, 0.25 }) // of the radius that the upper floor reaches past
@@ -80,7 +80,7 @@ TEST(FlatEnd, OverAStepIsHeldByEachFloorAsFarAsItIsPressed)
 // the force on a flat that leans is that of its mean depth, also where it is partly out
 TEST(FlatEnd, ThatLeansIsPushedByItsMeanDepth)
 {
-  const Surface plane = extruded({ { -40.0_mm, 0.0 }, { 40.0_mm, 0.0 } });
+  const Surface plane = floorsOf({ { -40.0_mm, 40.0_mm, 0.0 } });
   for (const double lean : { 1.0_deg, 5.0_deg, 12.0_deg, 25.0_deg, 40.0_deg })
   {
     for (double depth = -3.0_mm; depth < 4.0_mm; depth += 0.17_mm)
