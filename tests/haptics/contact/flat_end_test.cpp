@@ -77,6 +77,32 @@ TEST(FlatEnd, OverAStepIsHeldByEachFloorAsFarAsItIsPressed)
   }
 }
 
+// whatever of a flank the rim reaches comes in from nothing: nothing leaps, or pulls
+TEST(FlatEnd, InAValleyIsPushedSmoothlyOut)
+{
+  constexpr double kStep = 0.01_mm;
+  for (const double flank : { 3.0_deg, 14.0_deg, 30.0_deg, 50.0_deg })
+  {
+    const double rise = 40.0_mm * std::tan(flank);
+    const Surface valley = test::makeSurface(
+      { { { -40.0_mm, -40.0_mm, rise }, { -40.0_mm, 40.0_mm, rise }, { 0.0, -40.0_mm, 0.0 },
+          { 0.0, 40.0_mm, 0.0 }, { 40.0_mm, -40.0_mm, rise }, { 40.0_mm, 40.0_mm, rise } },
+        { { 0, 2, 3 }, { 0, 3, 1 }, { 2, 4, 5 }, { 2, 5, 3 } } });
+    for (const double x : { -8.0_mm, -4.0_mm, -1.0_mm, 0.0, 2.5_mm })
+    {
+      const double top = (kFlat + std::abs(x)) * std::tan(flank); // where the rim touches
+      Eigen::Vector3d last = Eigen::Vector3d::Zero();
+      for (double depth = 0.0; depth < 4.0_mm; depth += kStep)
+      {
+        const Eigen::Vector3d force = springForce(pressed(valley, { x, 0.3_mm, top - depth }));
+        EXPECT_LT((force - last).norm(), 3.0 * kStep / std::cos(flank)) << flank << " " << depth;
+        EXPECT_GE(force.z(), last.z() - 0.1 * kStep) << flank << " " << depth;
+        last = force;
+      }
+    }
+  }
+}
+
 // the force on a flat that leans is that of its mean depth, also where it is partly out
 TEST(FlatEnd, ThatLeansIsPushedByItsMeanDepth)
 {
