@@ -46,12 +46,11 @@ void measureNormal(Contact& contact, const ToolPose& pose, const NormalSum& norm
 void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ShapeBall& ball,
   CurvatureOf of) noexcept
 {
-  const LocalShape shape =
-    surface.shape()(ball.center, ball.radius, contact.bodyNormal, grainOf(tip), of);
+  const LocalShape shape = surface.shape()(ball.center, ball.radius, ball.normal, grainOf(tip), of);
   const auto slopeOf = [&](const LocalShape::Slope& one)
   {
     return Eigen::Vector3d(ball.moving.transpose() * one.place + one.radius * ball.widening +
-      contact.turning.transpose() * one.normal);
+      ball.turning.transpose() * one.normal);
   };
   contact.surfaceCurvature = shape.meanCurvature;
   contact.curvatureSpread = shape.curvatureSpread;

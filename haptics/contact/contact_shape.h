@@ -33,8 +33,10 @@ struct ShapeBall
 {
   Eigen::Vector3d center;                               ///< [m]
   double radius;                                        ///< [m]
+  Eigen::Vector3d normal;                               ///< of the body there, of unit length
   Eigen::Vector3d widening = Eigen::Vector3d::Zero();   ///< of the radius [-]
   Eigen::Matrix3d moving = Eigen::Matrix3d::Identity(); ///< of the center, a column for each way
+  Eigen::Matrix3d turning = Eigen::Matrix3d::Zero();    ///< of the normal, likewise [1/m]
 };
 
 /// The radius of a contact, or the least over which the shape of a surface is smooth.
@@ -47,8 +49,7 @@ struct ShapeBall
 /// @realtime  pure; no allocation, no lock, no exception
 void measureNormal(Contact& contact, const ToolPose& pose, const NormalSum& normals) noexcept;
 
-/// What of the body counts as the shape of the contact, and how that changes as the tool moves:
-/// with the ball, and with the normal, which is there before.
+/// What of the body counts as the shape of the contact, and how that changes as the tool moves.
 /// @realtime  pure; no allocation, no lock, no exception
 void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ShapeBall& ball,
   CurvatureOf of) noexcept;

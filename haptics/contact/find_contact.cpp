@@ -198,8 +198,12 @@ Contact ballContact(
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
   const Sloped wide = shapeRadius(surface, tip, rule.contactRadius(flat.value));
   const double reach = std::hypot(flat.value, wide.value);
-  measureShape(contact, surface, tip,
-    { position, reach, (flat.value + wide.value * wide.slope) / reach * flat.slope }, of);
+  const ShapeBall below{ .center = position,
+    .radius = reach,
+    .normal = contact.bodyNormal,
+    .widening = (flat.value + wide.value * wide.slope) / reach * flat.slope,
+    .turning = contact.turning };
+  measureShape(contact, surface, tip, below, of);
   const Part curved = curvedPart(*here, normals, contact, rule, wide, flat.slope);
   contact.curvedPart = curved.value;
   const Height height = heightOver(flat.value, curved.value * contact.surfaceCurvature,

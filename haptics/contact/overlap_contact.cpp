@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 namespace palp
 {
@@ -22,20 +21,33 @@ constexpr double kFacing = 0.1; // [-] cosine over which the back of a sheet bec
 
 // What below a punch counts as its shape: about the middle of its flat and along its axis, whatever
 // of the body the flat meets, which comes in and goes out at once.
-void measureBelowFlat(Contact& contact, const Surface& surface, const Tip& tip,
-  const ToolPose& pose, const Overlap& all, CurvatureOf of) noexcept
+ShapeBall belowFlat(
+  const Surface& surface, const Tip& tip, const ToolFrame& frame, const Overlap& all) noexcept
 {
-  const Eigen::Vector3d upward = -pose.axis;
+  const Eigen::Vector3d upward = frame.axes.col(2);
   const double area = std::numbers::pi * flatRadius(tip) * flatRadius(tip);
-  const Eigen::Vector3d sinking = ToolFrame(pose).axes * all.area / area;
-  const Sloped wide = shapeRadius(surface, tip, { flatRadius(tip) });
-  const ShapeBall ball{ pose.apex + all.volume / area * upward, wide.value, Eigen::Vector3d::Zero(),
-    Eigen::Matrix3d::Identity() - upward * sinking.transpose() };
-  const Eigen::Vector3d normal = std::exchange(contact.bodyNormal, upward);
-  const Eigen::Matrix3d turning = std::exchange(contact.turning, Eigen::Matrix3d::Zero());
-  measureShape(contact, surface, tip, ball, of);
-  contact.bodyNormal = normal;
-  contact.turning = turning;
+  const Eigen::Vector3d sinking = frame.axes * all.area / area;
+  return { .center = frame.apex + all.volume / area * upward,
+    .radius = shapeRadius(surface, tip, { flatRadius(tip) }).value,
+    .normal = upward,
+    .moving = Eigen::Matrix3d::Identity() - upward * sinking.transpose() };
+}
+
+// Of other tools: about the middle of what the body has in them, as wide as the contact there.
+ShapeBall belowMiddle(const Surface& surface, const Tip& tip, const ToolFrame& frame,
+  const Overlap& all, const Contact& contact, const Sloped& radius,
+  const Eigen::Vector3d& sinking) noexcept
+{
+  const auto& axes = frame.axes;
+  const Sloped wide = shapeRadius(surface, tip, radius);
+  const Eigen::Vector3d place = all.place / all.weight;
+  return { .center = frame.apex + axes * place,
+    .radius = wide.value,
+    .normal = contact.bodyNormal,
+    .widening = wide.slope * sinking,
+    .moving =
+      axes * (all.placeSlope - place * all.weightSlope.transpose()) / all.weight * axes.transpose(),
+    .turning = contact.turning };
 }
 
 } // namespace
@@ -59,28 +71,23 @@ Contact overlapContact(
   const auto turned = [&](const Eigen::Vector3d& byNormal)
   { return Eigen::Vector3d(contact.turning.transpose() * (axes * byNormal)); };
   const Eigen::Vector3d falling = axes * all.area;
-  const Immersion flat = immersionOf(solid, upward, all.volume, all.volume / all.weight, 0.0);
-  const Sloped wide = shapeRadius(surface, tip, solid.radiusAt(flat.depth));
-  const Eigen::Vector3d place = all.place / all.weight;
-  const ShapeBall ball{ frame.apex + axes * place, wide.value,
-    wide.slope * (turned(flat.byNormal) - flat.byVolume * falling),
-    axes * (all.placeSlope - place * all.weightSlope.transpose()) / all.weight * axes.transpose() };
-  const auto measure = [&](CurvatureOf what)
-  {
-    solid.isPunch() ? measureBelowFlat(contact, surface, tip, pose, all, what)
-                    : measureShape(contact, surface, tip, ball, what);
-  };
-  measure(CurvatureOf::Faces);
+  const bool isPunch = solid.isPunch();
+  const Immersion flat =
+    isPunch ? Immersion{} : immersionOf(solid, upward, all.volume, all.volume / all.weight, 0.0);
+  const ShapeBall below = isPunch
+    ? belowFlat(surface, tip, frame, all)
+    : belowMiddle(surface, tip, frame, all, contact, solid.radiusAt(flat.depth),
+        turned(flat.byNormal) - flat.byVolume * falling);
+  measureShape(contact, surface, tip, below, CurvatureOf::Faces);
   const double round = contact.surfaceCurvature; // without edges
-  const Immersion deep = solid.isPunch()
-    ? flatImmersionOf(solid.flatRadius(), all.lift, round)
-    : immersionOf(solid, upward, all.volume, flat.depth, round);
+  const Immersion deep = isPunch ? flatImmersionOf(solid.flatRadius(), all.lift, round)
+                                 : immersionOf(solid, upward, all.volume, flat.depth, round);
   contact.height = -deep.depth;
   contact.rising = deep.byVolume * falling + deep.byLift * (axes * all.liftArea) -
     deep.byCurvature * contact.curvatureSlope - turned(deep.byNormal);
   if (of == CurvatureOf::All)
   {
-    measure(of);
+    measureShape(contact, surface, tip, below, of);
   }
   contact.tilt = std::acos(std::clamp(upward.z(), -1.0, 1.0));
   const double front = surface.closed() ? 1.0 : std::min(1.0, upward.z() / kFacing);
@@ -90,8 +97,8 @@ Contact overlapContact(
   contact.slope = std::min(outward.norm(), kSteepestSlope);
   contact.normal = outward.normalized();
   // the middle of what is in the tool, from that of a plane below the apex, and up to a round top
-  const Eigen::Vector3d foot =
-    axes * (place - deep.aside) + 0.25 / std::numbers::pi * deep.area * round * contact.bodyNormal;
+  const Eigen::Vector3d foot = axes * (all.place / all.weight - deep.aside) +
+    0.25 / std::numbers::pi * deep.area * round * contact.bodyNormal;
   contact.center = frame.apex + foot;
   contact.relief = foot.dot(contact.bodyNormal) - deep.depth;
   contact.triangle =

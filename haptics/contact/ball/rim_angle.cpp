@@ -13,7 +13,6 @@ namespace
 
 constexpr double kLarge =
   1e120; // [-] product that is made smaller again, or larger below 1 over that
-constexpr double kWhole = 4.0 * std::numbers::pi;
 
 // of unit length, along no direction in which bodies are built
 Eigen::Vector3d pole() noexcept
@@ -79,8 +78,7 @@ void RimAngle::addShort(const Arc& arc, const Disc& disc) noexcept
 
 double RimAngle::value() const noexcept
 {
-  const double angle = 2.0 * angleOf(sine_, cosine_) + sector_;
-  return angle - kWhole * std::floor(angle / kWhole);
+  return 2.0 * angleOf(sine_, cosine_) + sector_;
 }
 
 } // namespace palp

@@ -47,7 +47,7 @@ public:
   /// @realtime  pure; no allocation, no lock, no exception
   void add(const Arc& arc, const Disc& disc) noexcept;
 
-  /// @return  from 0 up to 4 pi [rad^2]
+  /// @return  up to whole spheres [rad^2]
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] double value() const noexcept;
 
