@@ -19,27 +19,24 @@ namespace
 constexpr double kSteepestSlope = 4.9; // [-] most of a slope of a tool without a round nose
 constexpr double kFacing = 0.1; // [-] cosine over which the back of a sheet becomes its front
 
-// What below a punch counts as its shape: about the middle of its flat and along its axis, whatever
-// of the body the flat meets, which comes in and goes out at once.
-ShapeBall belowFlat(
-  const Surface& surface, const Tip& tip, const ToolFrame& frame, const Overlap& all) noexcept
+// What below a flat counts as its shape: about its middle and along its axis, whatever of the body
+// the flat meets, which comes in and goes out at once.
+ShapeBall belowFlat(const ToolFrame& frame, const Immersion& flat, const Sloped& wide,
+  const Eigen::Vector3d& sinking) noexcept
 {
   const Eigen::Vector3d upward = frame.axes.col(2);
-  const double area = std::numbers::pi * flatRadius(tip) * flatRadius(tip);
-  const Eigen::Vector3d sinking = frame.axes * all.area / area;
-  return { .center = frame.apex + all.volume / area * upward,
-    .radius = shapeRadius(surface, tip, { flatRadius(tip) }).value,
+  return { .center = frame.apex + flat.depth * upward,
+    .radius = wide.value,
     .normal = upward,
-    .moving = Eigen::Matrix3d::Identity() - upward * sinking.transpose() };
+    .widening = wide.slope * sinking,
+    .moving = Eigen::Matrix3d::Identity() + upward * sinking.transpose() };
 }
 
 // Of other tools: about the middle of what the body has in them, as wide as the contact there.
-ShapeBall belowMiddle(const Surface& surface, const Tip& tip, const ToolFrame& frame,
-  const Overlap& all, const Contact& contact, const Sloped& radius,
-  const Eigen::Vector3d& sinking) noexcept
+ShapeBall belowMiddle(const ToolFrame& frame, const Overlap& all, const Contact& contact,
+  const Sloped& wide, const Eigen::Vector3d& sinking) noexcept
 {
   const auto& axes = frame.axes;
-  const Sloped wide = shapeRadius(surface, tip, radius);
   const Eigen::Vector3d place = all.place / all.weight;
   return { .center = frame.apex + axes * place,
     .radius = wide.value,
@@ -59,7 +56,8 @@ Contact overlapContact(
   const ToolFrame frame(pose);
   const auto& axes = frame.axes;
   const Overlap all = overlapOf(surface, solid, frame);
-  if (!(all.volume > 0.0 && all.weight > 0.0))
+  const bool isFlat = solid.isFlat();
+  if (!((isFlat ? all.lift : all.volume) > 0.0 && all.weight > 0.0))
   {
     return {};
   }
@@ -68,23 +66,26 @@ Contact overlapContact(
   const Eigen::Vector3d upward = all.normal.normalized(); // as the tool sees it
   Contact contact;
   measureNormal(contact, pose, normals);
-  const auto turned = [&](const Eigen::Vector3d& byNormal)
-  { return Eigen::Vector3d(contact.turning.transpose() * (axes * byNormal)); };
-  const Eigen::Vector3d falling = axes * all.area;
-  const bool isPunch = solid.isPunch();
-  const Immersion flat =
-    isPunch ? Immersion{} : immersionOf(solid, upward, all.volume, all.volume / all.weight, 0.0);
-  const ShapeBall below = isPunch
-    ? belowFlat(surface, tip, frame, all)
-    : belowMiddle(surface, tip, frame, all, contact, solid.radiusAt(flat.depth),
-        turned(flat.byNormal) - flat.byVolume * falling);
+  const auto immersed = [&](double start, double curvature)
+  {
+    return isFlat ? flatImmersionOf(solid, all.lift, curvature)
+                  : immersionOf(solid, upward, all.volume, start, curvature);
+  };
+  const auto sinkingOf = [&](const Immersion& in)
+  {
+    return Eigen::Vector3d(contact.turning.transpose() * (axes * in.byNormal) -
+      axes * (in.byVolume * all.area + in.byLift * all.liftArea));
+  };
+  const Immersion plane = immersed(all.volume / all.weight, 0.0);
+  const Sloped wide = shapeRadius(surface, tip, solid.radiusAt(plane.depth));
+  const Eigen::Vector3d sinking = sinkingOf(plane);
+  const ShapeBall below = isFlat ? belowFlat(frame, plane, wide, sinking)
+                                 : belowMiddle(frame, all, contact, wide, sinking);
   measureShape(contact, surface, tip, below, CurvatureOf::Faces);
   const double round = contact.surfaceCurvature; // without edges
-  const Immersion deep = isPunch ? flatImmersionOf(solid.flatRadius(), all.lift, round)
-                                 : immersionOf(solid, upward, all.volume, flat.depth, round);
+  const Immersion deep = immersed(plane.depth, round);
   contact.height = -deep.depth;
-  contact.rising = deep.byVolume * falling + deep.byLift * (axes * all.liftArea) -
-    deep.byCurvature * contact.curvatureSlope - turned(deep.byNormal);
+  contact.rising = -sinkingOf(deep) - deep.byCurvature * contact.curvatureSlope;
   if (of == CurvatureOf::All)
   {
     measureShape(contact, surface, tip, below, of);

@@ -9,12 +9,26 @@ namespace palp
 namespace
 {
 
-constexpr double kChange = 1e-3; // by which each is changed, of the tool's curvature and itself
+constexpr double kChange = 1e-4; // by which each is changed, of the tool's curvature and itself
 
-// Where the slope of a force is taken, and by how much its integral over the depth is more: exact
-// where it grows as the depth's power of 1.5 or 3, and to 4 % from 1.5 to 3.5.
-constexpr double kDepth = 0.7310; // [-]
-constexpr double kWeight = 0.64;  // [-]
+// Where the slope of a force is taken, by the depth, and its integral over that, by the slope
+// there.
+struct Middle
+{
+  double depth;  // [-]
+  double weight; // [-]
+};
+
+// By the power of the depth that such a slope is: exact for the first and the last, and to 3 %
+// between.
+constexpr Middle kFlat{ .depth = 2.0 / 3.0, .weight = 0.75 };      // 1 to 2, under a flat
+constexpr Middle kRound{ .depth = 0.7310, .weight = 0.64 };        // 1.5 to 3
+constexpr Middle kPointed{ .depth = 0.75, .weight = 16.0 / 27.0 }; // 2 to 3
+
+const Middle& middleOf(const Tip& tip) noexcept
+{
+  return flatRadius(tip) > 0.0 ? kFlat : noseRadius(tip) > 0.0 ? kRound : kPointed;
+}
 
 } // namespace
 
@@ -24,31 +38,32 @@ EnergySlopes energySlopes(const ForceLaw& law, const ContactGeometry& local) noe
   {
     return {};
   }
+  const Middle& middle = middleOf(law.tip());
+  const double reach = middle.weight * local.depth;
   ContactGeometry here = local;
-  here.depth = kDepth * local.depth;
+  here.depth = middle.depth * local.depth;
   const double force = law(here).force;
   // over one of its values
   const auto slope = [&](double ContactGeometry::*what, double change)
   {
     ContactGeometry there = here;
     there.*what += change;
-    return kWeight * local.depth * (law(there).force - force) / change;
+    return reach * (law(there).force - force) / change;
   };
   const double bend = kChange / baseRadius(law.tip());
   EnergySlopes slopes;
-  if (law.settings().curvature && !(flatRadius(law.tip()) > 0.0))
+  if (law.settings().curvature)
   {
     slopes.curvature = slope(&ContactGeometry::surfaceCurvature, bend);
     ContactGeometry longer = here; // in one direction, which is a factor of the force
     longer.curvatureSpread += bend;
-    slopes.spread =
-      kWeight * local.depth * force * (law.ellipse(longer) / law.ellipse(here) - 1.0) / bend;
+    slopes.spread = reach * force * (law.ellipse(longer) / law.ellipse(here) - 1.0) / bend;
   }
   if (law.settings().inclination && std::isfinite(local.tilt))
   {
     const double factor = tiltFactor(law.tip(), local.tilt);
-    slopes.tilt = kWeight * local.depth * force *
-      (tiltFactor(law.tip(), local.tilt + kChange) / factor - 1.0) / kChange;
+    slopes.tilt =
+      reach * force * (tiltFactor(law.tip(), local.tilt + kChange) / factor - 1.0) / kChange;
   }
   if (law.settings().thickness && std::isfinite(local.thickness))
   {

@@ -15,7 +15,8 @@ struct EnergySlopes
 };
 
 /// Slopes of the integral of a law's force over the depth, by those of the force at one depth,
-/// which stands for all: they grow as a power of it.
+/// which stands for all: they grow as a power of it. They are within 7 %, and 12 % where a tool is
+/// deeper than a seventh of the thickness.
 ///
 /// @return    zeros where the law asks for the depth alone
 /// @realtime  pure; no allocation, no lock, no exception

@@ -82,4 +82,32 @@ template <typename Function>
   return x;
 }
 
+/// Newton's method within a bracket, which is halved where a step leaves it.
+///
+/// @param at  value and slope at a number; the value is below 0 at low and above 0 at high
+/// @return    with the last step, which is less than the tolerance, or after 40
+/// @realtime  as at
+template <typename At>
+[[nodiscard]] double boundedNewton(
+  double x, RootBracket bracket, double tolerance, const At& at) noexcept
+{
+  constexpr int kMaxSteps = 40; // three are usual
+  for (int i = 0; i < kMaxSteps; ++i)
+  {
+    const auto [value, slope] = at(x);
+    const double last = x;
+    (value > 0.0 ? bracket.high : bracket.low) = last;
+    x = last - value / slope;
+    if (!(x >= bracket.low && x <= bracket.high))
+    {
+      x = 0.5 * (bracket.low + bracket.high);
+    }
+    if (std::abs(x - last) < tolerance)
+    {
+      break;
+    }
+  }
+  return x;
+}
+
 } // namespace palp

@@ -2,9 +2,11 @@
 
 #include "haptics/contact/ball/lens.h"
 #include "haptics/numerics/leveled.h"
+#include "haptics/numerics/roots.h"
 #include "haptics/numerics/smooth_step.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -18,7 +20,6 @@ constexpr double kSmall = 4e-3;      // [-] from which on all of the moment coun
 constexpr double kFarthest = 0.9999; // [-] of the ball's radius
 constexpr double kSteepest = 0.2;    // [-] of what a plane's moment loses
 constexpr double kFastest = 2.0;     // [-] by which a height changes as the ball moves
-constexpr int kSteps = 30;           // of Newton's method; three are usual
 constexpr double kClose = 1e-11;     // [m]
 
 } // namespace
@@ -71,25 +72,17 @@ Height HeightOver::operator()(
     return { nearest_, normal };
   }
   const Leveled bent = leveled(curvature, ball_);
-  double low = std::max(nearest_ - smoothing_, -kFarthest * ball_); // the mesh has less
-  double high = std::min(nearest_ + smoothing_, kFarthest * ball_); // it has more
-  double height = std::clamp(start, low, high);
+  const RootBracket bracket{ std::max(
+                               nearest_ - smoothing_, -kFarthest * ball_), // the mesh has less
+    std::min(nearest_ + smoothing_, kFarthest * ball_) };                  // it has more
   Excess excess{};
-  for (int i = 0; i < kSteps; ++i)
+  const auto over = [&](double place)
   {
-    excess = excessAt(height, bent.value);
-    const double last = height;
-    (excess.value > 0.0 ? high : low) = last;
-    height = last - excess.value / excess.byHeight(excess.fall);
-    if (!(height >= low && height <= high))
-    {
-      height = 0.5 * (low + high);
-    }
-    if (std::abs(height - last) < kClose)
-    {
-      break;
-    }
-  }
+    excess = excessAt(place, bent.value);
+    return std::array{ excess.value, excess.byHeight(excess.fall) };
+  };
+  const double height =
+    boundedNewton(std::clamp(start, bracket.low, bracket.high), bracket, kClose, over);
   const double more = excess.more;
   const Lens own = lensOf(given_ + more, height, bent.value);
   const Eigen::Vector3d change = patch_->normal + patch_->fading +

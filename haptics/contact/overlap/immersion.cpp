@@ -2,9 +2,11 @@
 
 #include "haptics/contact/overlap/section.h"
 #include "haptics/numerics/leveled.h"
+#include "haptics/numerics/roots.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -16,8 +18,6 @@ namespace
 constexpr double kPi = std::numbers::pi;
 constexpr double kSteepest = 0.2; // [-] of the area, least slope of the volume over the height
 constexpr double kLeast = 1e-9;   // [m] of a width
-constexpr int kSteps = 40;        // of Newton's method; three are usual
-constexpr double kClose = 1e-12;  // [m]
 
 // How wide a section is, or how fast that grows, whichever is more; by the height.
 Sloped widthAt(const ToolSolid& solid, double height) noexcept
@@ -25,13 +25,6 @@ Sloped widthAt(const ToolSolid& solid, double height) noexcept
   const double steepest = std::max(1.0, solid.layers().front().slope);
   const Sloped radius = solid.radiusAt(height);
   return { std::max(kLeast, steepest * radius.value), steepest * radius.slope };
-}
-
-// As the tool meets it: a flat touches a body that is rounder than it only about its top.
-Leveled bentAt(const ToolSolid& solid, double curvature, const Sloped& width) noexcept
-{
-  return solid.flatRadius() > 0.0 && curvature > 0.0 ? Leveled{ curvature, 1.0, 0.0 }
-                                                     : leveled(curvature, width.value);
 }
 
 // The volume that a body takes whose rim is at a height.
@@ -50,7 +43,7 @@ Taken takenAt(
 {
   const Sloped width = widthAt(solid, height);
   const Section section = sectionOf(solid, normal, height);
-  const Leveled bent = bentAt(solid, curvature, width);
+  const Leveled bent = leveled(curvature, width.value);
   const double bentSlope = bent.bySize * width.slope;
   const double cap = 0.25 / kPi * section.area * section.area;
   const double byHeight =
@@ -71,47 +64,20 @@ double lowestOf(const ToolSolid& solid, const Eigen::Vector3d& normal) noexcept
   return lowest;
 }
 
-// A flat below the top of a round body, which does not cover it: a cap.
-bool isCap(const ToolSolid& solid, double volume, double curvature) noexcept
-{
-  const double square = solid.flatRadius() * solid.flatRadius();
-  return volume < 0.25 * kPi * curvature * square * square;
-}
-
 } // namespace
 
-Immersion immersionOf(const ToolSolid& solid, const Eigen::Vector3d& outward, double volume,
+Immersion immersionOf(const ToolSolid& solid, const Eigen::Vector3d& normal, double volume,
   double start, double curvature) noexcept
 {
-  const bool isFlat = solid.flatRadius() > 0.0;
-  const Eigen::Vector3d normal = isFlat ? Eigen::Vector3d::UnitZ() : outward;
-  if (isCap(solid, volume, curvature))
-  {
-    const double depth = std::sqrt(curvature * volume / kPi);
-    return { .depth = depth,
-      .byVolume = 0.5 * depth / volume,
-      .byCurvature = 0.5 * depth / curvature,
-      .area = 2.0 * volume / depth };
-  }
-  double low = lowestOf(solid, normal) - kLeast;
-  double high = solid.top();
-  double height = std::clamp(start, low, high);
+  const RootBracket bracket{ lowestOf(solid, normal) - kLeast, solid.top() };
   Taken taken{};
-  for (int i = 0; i < kSteps; ++i)
+  const auto excess = [&](double height)
   {
     taken = takenAt(solid, normal, height, curvature);
-    const double last = height;
-    (taken.volume > volume ? high : low) = last;
-    height = last - (taken.volume - volume) / taken.byHeight;
-    if (!(height >= low && height <= high))
-    {
-      height = 0.5 * (low + high);
-    }
-    if (std::abs(height - last) < kClose)
-    {
-      break;
-    }
-  }
+    return std::array{ taken.volume - volume, taken.byHeight };
+  };
+  const double height =
+    boundedNewton(std::clamp(start, bracket.low, bracket.high), bracket, kClose, excess);
   const Section& section = taken.section;
   const double round = 0.5 / kPi * taken.bent.value;
   const double rising = 1.0 + round * section.growth + 0.5 / kPi * taken.bentSlope * section.area;
@@ -120,9 +86,7 @@ Immersion immersionOf(const ToolSolid& solid, const Eigen::Vector3d& outward, do
     .byVolume = rising / taken.byHeight,
     .byCurvature =
       taken.bent.slope * (0.5 * section.area / kPi - rising * taken.cap / taken.byHeight),
-    .byNormal = isFlat
-      ? Eigen::Vector3d(Eigen::Vector3d::Zero())
-      : Eigen::Vector3d(rising / taken.byHeight * turned - round * section.growing),
+    .byNormal = rising / taken.byHeight * turned - round * section.growing,
     .area = section.area,
     .aside = section.moment / section.area };
 }

@@ -7,7 +7,7 @@
 namespace palp
 {
 
-/// How deep a tool is in a smooth body with which it has a volume in common, and how that changes.
+/// How deep a tool is in a smooth body with which it has as much in common, and how that changes.
 struct Immersion
 {
   double depth = 0.0;                                 ///< of the apex, or the middle of a flat [m]
@@ -19,17 +19,18 @@ struct Immersion
   Eigen::Vector3d aside = Eigen::Vector3d::Zero();    ///< its middle, from the foot of the apex [m]
 };
 
-/// The body is a half-space, with as much of a paraboloid on it as the rim of its surface in the
-/// tool encloses. A flat is as deep as its middle would be were it level, however it leans: the
-/// force on it is that of its mean depth.
+constexpr double kClose = 1e-12; ///< [m] within which a depth is found
+
+/// Of a pointed tool: the body is a half-space, with as much of a paraboloid on it as the rim of
+/// its surface in the tool encloses.
 ///
-/// @param outward    normal, of unit length, in the tool's frame
+/// @param normal     outward, of unit length, in the tool's frame
 /// @param volume     above 0 [m^3]
 /// @param start      a depth that is near [m]
 /// @param curvature  mean, convex positive [1/m]; leveled off where the body is rounder than what
 ///                   of the tool is in it
 /// @realtime         pure; no allocation, no lock, no exception
-[[nodiscard]] Immersion immersionOf(const ToolSolid& solid, const Eigen::Vector3d& outward,
+[[nodiscard]] Immersion immersionOf(const ToolSolid& solid, const Eigen::Vector3d& normal,
   double volume, double start, double curvature) noexcept;
 
 } // namespace palp

@@ -17,6 +17,7 @@ constexpr double kInscribed =
   0.99;                         // [-] of a cross section's outer radius: less than its inner one
 constexpr double kAlong = 1e-3; // [-] sine between a triangle and a side that it lies along
 
+using Field = ToolSolid::Field;
 using Layer = ToolSolid::Layer;
 
 // Sums over the triangles in a tool.
@@ -62,9 +63,11 @@ public:
         {
           const Eigen::Vector3d& from = piece[k];
           const Eigen::Vector3d& to = piece[piece.after(k)];
-          sum_.area -= borderOf(layer, from, to);
-          sum_.liftArea -= (from.z() * from.z() + from.z() * to.z() + to.z() * to.z()) / 6.0 *
-            Eigen::Vector3d::UnitZ().cross(to - from);
+          sum_.area -= acrossBorder(layer, layer.volume, from, to);
+          if (solid_->isFlat())
+          {
+            sum_.liftArea -= acrossBorder(layer, layer.lift, from, to);
+          }
         }
       }
     }
@@ -80,7 +83,7 @@ private:
   struct Integrals
   {
     double area = 0.0;
-    double flux = 0.0;    // of the part of the field that the twist is
+    double twist = 0.0;   // of 1 / cube of the height over the pole
     double squares = 0.0; // of the height
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   };
@@ -101,25 +104,41 @@ private:
       sum.moment += part / 3.0 * corners;
       sum.squares += part / 12.0 *
         (first.z() * first.z() + a.z() * a.z() + b.z() * b.z() + corners.z() * corners.z());
-      if (layer.twist != 0.0)
+      if (layer.volume.twist != 0.0 || layer.lift.twist != 0.0)
       {
-        sum.flux += part * layer.twist / (rise * (a.z() - layer.pole) * (b.z() - layer.pole));
+        sum.twist += part / (rise * (a.z() - layer.pole) * (b.z() - layer.pole));
       }
     }
     return sum;
   }
 
+  // of a field
+  static double through(const Layer& layer, const Field& field, const Integrals& sums,
+    const Piece& piece, const Eigen::Vector3d& normal) noexcept
+  {
+    const double rise = sums.moment.z() - layer.pole * sums.area;
+    if (layer.isShaft())
+    {
+      return normal.z() *
+        (layer.upward(field, 0.0) * sums.area + field.constant * sums.moment.z() +
+          0.5 * field.linear * sums.squares);
+    }
+    return (layer.atPole(field) * sums.area + 0.25 * field.linear * rise +
+             field.twist * sums.twist) *
+      normal.dot(piece[0] - layer.pole * Eigen::Vector3d::UnitZ());
+  }
+
   void addPiece(
     const Layer& layer, const Piece& piece, const Eigen::Vector3d& normal, bool isLowest) noexcept
   {
-    const auto [area, flux, squares, moment] = integralsOf(layer, piece, normal);
-    sum_.volume += layer.slope > 0.0
-      ? (flux + area / 3.0) * normal.dot(piece[0] - layer.pole * Eigen::Vector3d::UnitZ())
-      : normal.z() * (moment.z() + area * (layer.entering - layer.low));
+    const Integrals sums = integralsOf(layer, piece, normal);
+    const double area = sums.area;
+    const Eigen::Vector3d& moment = sums.moment;
+    sum_.volume += through(layer, layer.volume, sums, piece, normal);
     sum_.area += area * normal;
-    if (solid_->isPunch())
+    if (solid_->isFlat())
     {
-      sum_.lift += 0.5 * normal.z() * squares;
+      sum_.lift += through(layer, layer.lift, sums, piece, normal);
       sum_.liftArea += moment.z() * normal;
     }
     if (!(normal.z() > 0.0))
@@ -168,19 +187,22 @@ private:
     return layer.perSquare * Eigen::Vector3d(to.x(), to.y(), -layer.slope);
   }
 
-  // the field across a part of the border
-  static Eigen::Vector3d borderOf(
-    const Layer& layer, const Eigen::Vector3d& from, const Eigen::Vector3d& to) noexcept
+  // what a field takes across a part of the border as the tool moves
+  static Eigen::Vector3d acrossBorder(const Layer& layer, const Field& field,
+    const Eigen::Vector3d& from, const Eigen::Vector3d& to) noexcept
   {
-    if (!(layer.slope > 0.0))
+    if (layer.isShaft())
     {
-      const double field = 0.5 * (from.z() + to.z()) - layer.low + layer.entering;
-      return field * Eigen::Vector3d::UnitZ().cross(to - from);
+      const double squares = from.z() * from.z() + from.z() * to.z() + to.z() * to.z();
+      const double mean = layer.upward(field, 0.0) + 0.5 * field.constant * (from.z() + to.z()) +
+        field.linear * squares / 6.0;
+      return mean * Eigen::Vector3d::UnitZ().cross(to - from);
     }
     const double a = from.z() - layer.pole;
     const double b = to.z() - layer.pole;
-    const double twist = layer.twist != 0.0 ? 0.5 * layer.twist * (a + b) / (a * a * b * b) : 0.0;
-    return (1.0 / 3.0 + twist) * (from - layer.pole * Eigen::Vector3d::UnitZ()).cross(to - from);
+    const double twist = field.twist != 0.0 ? 0.5 * field.twist / (a * a * b * b) : 0.0;
+    return (layer.atPole(field) + (0.125 * field.linear + twist) * (a + b)) *
+      (from - layer.pole * Eigen::Vector3d::UnitZ()).cross(to - from);
   }
 
   const ToolSolid* solid_;

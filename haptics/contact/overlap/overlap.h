@@ -32,7 +32,7 @@ struct Overlap
 {
   double volume = 0.0;                                  ///< [m^3]
   Eigen::Vector3d area = Eigen::Vector3d::Zero();       ///< of the outward normal: -d volume [m^2]
-  double lift = 0.0;                                    ///< of it, over the flat of a punch [m^4]
+  double lift = 0.0;                                    ///< of it, over a flat at the apex [m^4]
   Eigen::Vector3d liftArea = Eigen::Vector3d::Zero();   ///< as area: -d lift [m^3]
   double weight = 0.0;                                  ///< of what faces the tool [m^2]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();     ///< of that, times the outward normal [m^2]

@@ -78,26 +78,23 @@ void ToolSolid::add(double low, double high, double from, double to) noexcept
     .radius = kRing.apothem * from,
     .slope = slope,
     .pole = slope > 0.0 ? low - kRing.apothem * from / slope : 0.0,
-    .twist = 0.0,
-    .entering = 0.0,
     .perSquare = 1.0 / std::hypot(1.0, slope),
     .below = 0.0 };
-  if (count_ > 0)
+  for (Field Layer::*field : { &Layer::volume, &Layer::lift })
   {
-    const Layer& under = layers_[count_ - 1];
-    const double area = crossArea(under.radius);
-    const double areaAbove = crossArea(under.radiusAt(under.high));
-    layer.below = under.below +
-      (under.high - under.low) / 3.0 * (area + areaAbove + std::sqrt(area * areaAbove));
-    const double rise = under.high - under.pole;
-    layer.entering = under.slope > 0.0 ? rise / 3.0 + under.twist / (rise * rise)
-                                       : under.entering + under.high - under.low;
+    if (count_ > 0)
+    {
+      const Layer& under = layers_[count_ - 1];
+      (layer.*field).entering = under.upward(under.*field, low);
+    }
+    if (!layer.isShaft())
+    {
+      const double rise = low - layer.pole;
+      (layer.*field).twist =
+        rise * rise * ((layer.*field).entering - layer.upward(layer.*field, low));
+    }
   }
-  if (slope > 0.0)
-  {
-    const double rise = low - layer.pole;
-    layer.twist = rise * rise * (layer.entering - rise / 3.0);
-  }
+  layer.below = layer.volume.entering * crossArea(layer.radius);
   layers_[count_++] = layer;
 }
 
@@ -131,16 +128,22 @@ const std::array<Eigen::Vector2d, ToolSolid::kSides>& ToolSolid::corners() noexc
   return kRing.corners;
 }
 
+const ToolSolid::Layer& ToolSolid::layerAt(double height) const noexcept
+{
+  std::size_t i = count_ - 1;
+  while (i > 0 && height < layers_[i].low)
+  {
+    --i;
+  }
+  return layers_[i];
+}
+
 Sloped ToolSolid::radiusAt(double height) const noexcept
 {
-  const Layer* layer = layers_.data();
-  for (const Layer& one : layers())
-  {
-    layer = height >= one.low ? &one : layer;
-  }
+  const Layer& layer = layerAt(height);
   const double base = layers_[count_ - 1].radius;
   return smoothMin(
-    { layer->radiusAt(std::max(height, layer->low)), height > layer->low ? layer->slope : 0.0 },
+    { layer.radiusAt(std::max(height, layer.low)), height > layer.low ? layer.slope : 0.0 },
     { base }, kCorner * base);
 }
 

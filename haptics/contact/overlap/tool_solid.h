@@ -26,11 +26,18 @@ class ToolSolid
 public:
   static constexpr std::size_t kSides = 24;
 
+  /// A field along the sides of the tool, so that none of it leaves through them: from the pole, or
+  /// up along a shaft. Its divergence is what counts of a body there, constant + linear x the
+  /// height over the apex. Nothing enters at the bottom; what leaves one layer enters the next.
+  struct Field
+  {
+    double constant;
+    double linear;         ///< [1/m]
+    double twist = 0.0;    ///< of what goes from the pole, by 1 / cube of the rise over it [m^3]
+    double entering = 0.0; ///< upward, at the bottom of the layer [m]
+  };
+
   /// One pyramid, or the shaft.
-  ///
-  /// The field, of divergence 1, goes along the sides, so that none of it leaves through them: from
-  /// the pole x (1/3 + twist / z^3), and up along a shaft. Nothing enters at the bottom; what
-  /// leaves one layer enters the next.
   struct Layer
   {
     double low;       ///< [m]
@@ -38,15 +45,34 @@ public:
     double radius;    ///< from the axis to the sides, at low [m]
     double slope;     ///< of that over the height; 0: the shaft [-]
     double pole;      ///< height where the sides meet [m]
-    double twist;     ///< [m^3]
-    double entering;  ///< of the field, at low [m]
     double perSquare; ///< 1 / root(1 + slope^2) [-]
     double below;     ///< volume up to low [m^3]
+    Field volume{ .constant = 1.0, .linear = 0.0 };
+    Field lift{ .constant = 0.0, .linear = 1.0 }; ///< by the height, [m] more
 
+    [[nodiscard]] bool isShaft() const noexcept
+    {
+      return !(slope > 0.0);
+    }
     /// From the axis to the sides [m].
     [[nodiscard]] double radiusAt(double height) const noexcept
     {
       return radius + slope * (height - low);
+    }
+    /// Of a field, at a height [m].
+    [[nodiscard]] double upward(const Field& field, double height) const noexcept
+    {
+      const double rise = height - pole;
+      const double twist = field.twist != 0.0 ? field.twist / (rise * rise) : 0.0;
+      return isShaft()
+        ? field.entering + (field.constant + 0.5 * field.linear * (height + low)) * (height - low)
+        : rise * (atPole(field) + 0.25 * field.linear * rise) + twist;
+    }
+    /// Of a field without its twist, by the way from the pole: there; over it that grows by a
+    /// quarter of the linear part [-].
+    [[nodiscard]] double atPole(const Field& field) const noexcept
+    {
+      return (field.constant + field.linear * pole) / 3.0;
     }
   };
 
@@ -78,11 +104,13 @@ public:
     return flat_;
   }
 
-  /// Whether it is a shaft with a flat end, and nothing else.
-  [[nodiscard]] bool isPunch() const noexcept
+  [[nodiscard]] bool isFlat() const noexcept
   {
-    return count_ == 1;
+    return flat_ > 0.0;
   }
+
+  /// The layer that a height is in; the lowest below it.
+  [[nodiscard]] const Layer& layerAt(double height) const noexcept;
 
   /// Of a cross section that is as far from the axis to its sides [m^2].
   [[nodiscard]] static double crossArea(double radius) noexcept;

@@ -1,6 +1,7 @@
 #include "haptics/contact/find_contact.h"
 #include "haptics/contact/overlap/flat_end.h"
 #include "haptics/contact/overlap/overlap.h"
+#include "haptics/contact/overlap/section.h"
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 
@@ -20,6 +21,41 @@ using namespace units::literals;
 
 constexpr double kFlat = 5.0_mm;
 const Tip kPunch = PunchTip{ .radius = kFlat };
+const std::vector<std::pair<const char*, Tip>> kFlats = {
+  { "punch", kPunch },
+  { "truncated cone",
+    TruncatedConeTip{ .halfAngle = 45.0_deg, .flatRadius = 2.0_mm, .baseRadius = 8.0_mm } },
+  { "slim truncated cone",
+    TruncatedConeTip{ .halfAngle = 20.0_deg, .flatRadius = 3.0_mm, .baseRadius = 5.0_mm } },
+  { "wide truncated cone",
+    TruncatedConeTip{ .halfAngle = 60.0_deg, .flatRadius = 1.0_mm, .baseRadius = 10.0_mm } },
+};
+
+// of the circle of contact at a depth
+double circleAt(const ToolSolid& solid, double depth)
+{
+  return std::sqrt(sectionOf(solid, Eigen::Vector3d::UnitZ(), depth).area / std::numbers::pi);
+}
+
+// of a half-space whose face leans, by discs
+double liftBelow(const Tip& tip, double height, double lean)
+{
+  const ToolSolid solid(tip);
+  constexpr int kDiscs = 4000;
+  const double top = 2.0 * height + 4.0 * baseRadius(tip) * std::tan(lean);
+  const double thick = std::max(0.0, top) / kDiscs;
+  double lift = 0.0;
+  for (int i = 0; i < kDiscs; ++i)
+  {
+    const double z = (i + 0.5) * thick;
+    const double radius = circleAt(solid, z);
+    const double line = (height / std::cos(lean) - z) / std::max(1e-9, std::tan(lean));
+    const double part = std::clamp(line / radius, -1.0, 1.0);
+    lift += z * thick * radius * radius *
+      (std::numbers::pi - std::acos(part) + part * std::sqrt(1.0 - part * part));
+  }
+  return lift;
+}
 
 // side by side: floors from x to x at a height each
 Surface floorsOf(const std::vector<Eigen::Vector3d>& floors)
@@ -39,12 +75,13 @@ Surface floorsOf(const std::vector<Eigen::Vector3d>& floors)
   return test::makeSurface(mesh);
 }
 
-Contact pressed(const Surface& surface, const Eigen::Vector3d& apex, double lean = 0.0)
+Contact pressed(
+  const Surface& surface, const Eigen::Vector3d& apex, double lean = 0.0, const Tip& tip = kPunch)
 {
   const ToolPose pose{ .apex = apex,
     .axis = { std::sin(lean), 0.0, -std::cos(lean) },
     .velocity = Eigen::Vector3d::Zero() };
-  return findContact(surface, kPunch, pose, ContactRule::Exact);
+  return findContact(surface, tip, pose, ContactRule::Exact);
 }
 
 // of a spring that is pressed by the depth
@@ -77,7 +114,83 @@ TEST(FlatEnd, OverAStepIsHeldByEachFloorAsFarAsItIsPressed)
   }
 }
 
-// whatever of a flank the rim reaches comes in from nothing: nothing leaps, or pulls
+// half of it over the upper floor, and half over the lower one
+TEST(FlatEnd, OfAConeIsHeldByEachFloorAsFarAsItIsPressed)
+{
+  const double step = 1.0_mm;
+  const Surface floors = floorsOf({ { -40.0_mm, 0.0, 0.0 }, { 0.0, 40.0_mm, -step } });
+  for (const auto& [name, tip] : kFlats)
+  {
+    const auto lift = [&](double depth) { return liftBelow(tip, std::max(0.0, depth), 0.0); };
+    for (double depth = 0.2_mm; depth < 3.0_mm; depth += 0.2_mm)
+    {
+      const Contact contact = pressed(floors, { 0.0, 0.7_mm, -depth }, 0.0, tip);
+      const double all = 0.5 * (lift(depth) + lift(depth - step));
+      EXPECT_NEAR(lift(contact.depth), all, 2e-3 * all) << name << " " << depth;
+      constexpr double kMove = 1e-6;
+      const double before = pressed(floors, { 0.0, 0.7_mm, -depth + kMove }, 0.0, tip).depth;
+      const double after = pressed(floors, { 0.0, 0.7_mm, -depth - kMove }, 0.0, tip).depth;
+      EXPECT_NEAR(contact.slope * contact.normal.z(), (after - before) / (2.0 * kMove), 2e-3)
+        << name << " " << depth;
+    }
+  }
+}
+
+// as the second floor comes level, whatever of the flat is over it
+TEST(FlatEnd, NothingLeapsAsASecondFloorComesIn)
+{
+  constexpr double kStep = 0.001_mm;
+  const double step = 0.5_mm;
+  const Surface stairs = test::makeSurface(
+    { { { -40.0_mm, -40.0_mm, 0.0 }, { -40.0_mm, 40.0_mm, 0.0 }, { 0.0, -40.0_mm, 0.0 },
+        { 0.0, 40.0_mm, 0.0 }, { 0.0, -40.0_mm, -step }, { 0.0, 40.0_mm, -step },
+        { 40.0_mm, -40.0_mm, -step }, { 40.0_mm, 40.0_mm, -step } },
+      { { 0, 2, 3 }, { 0, 3, 1 }, { 2, 4, 5 }, { 2, 5, 3 }, { 4, 6, 7 }, { 4, 7, 5 } } });
+  for (const auto& [name, tip] : kFlats)
+  {
+    for (const double part : { -0.9, -0.5, 0.0, 0.5, 0.9 })
+    {
+      const double x = part * flatRadius(tip);
+      Eigen::Vector3d last = Eigen::Vector3d::Zero();
+      for (double depth = step - 0.05_mm; depth < step + 0.05_mm; depth += kStep)
+      {
+        const Eigen::Vector3d force = springForce(pressed(stairs, { x, 0.3_mm, -depth }, 0.0, tip));
+        if (last.norm() > 0.0)
+        {
+          EXPECT_LT((force - last).norm(), 4.0 * kStep) << name << " " << part << " " << depth;
+        }
+        last = force;
+      }
+    }
+  }
+}
+
+TEST(FlatEnd, LiftOfAPlaneIsThatOfItsDiscs)
+{
+  const Surface plane = floorsOf({ { -80.0_mm, 80.0_mm, 0.0 } });
+  for (const auto& [name, tip] : kFlats)
+  {
+    for (const double lean : { 0.0, 3.0_deg, 11.0_deg })
+    {
+      for (const double depth : { 0.1_mm, 0.8_mm, 2.5_mm, 4.0_mm })
+      {
+        const ToolPose pose{ .apex = { 0.4_mm, 0.3_mm, -depth },
+          .axis = { std::sin(lean), 0.0, -std::cos(lean) },
+          .velocity = Eigen::Vector3d::Zero() };
+        const double lift = liftBelow(tip, depth, lean);
+        const Overlap overlap = overlapOf(plane, ToolSolid(tip), ToolFrame(pose));
+        EXPECT_NEAR(overlap.lift, lift, 2e-3 * lift) << name << " " << lean << " " << depth;
+        if (lean == 0.0)
+        {
+          EXPECT_NEAR(flatImmersionOf(ToolSolid(tip), overlap.lift, 0.0).depth, depth, 1e-9);
+        }
+      }
+    }
+  }
+}
+
+// whatever of a flank the rim reaches comes in from nothing: nothing leaps, or pulls; none of these
+// cones lies flush with a flank, which comes in as a whole
 TEST(FlatEnd, InAValleyIsPushedSmoothlyOut)
 {
   constexpr double kStep = 0.01_mm;
@@ -88,16 +201,26 @@ TEST(FlatEnd, InAValleyIsPushedSmoothlyOut)
       { { { -40.0_mm, -40.0_mm, rise }, { -40.0_mm, 40.0_mm, rise }, { 0.0, -40.0_mm, 0.0 },
           { 0.0, 40.0_mm, 0.0 }, { 40.0_mm, -40.0_mm, rise }, { 40.0_mm, 40.0_mm, rise } },
         { { 0, 2, 3 }, { 0, 3, 1 }, { 2, 4, 5 }, { 2, 5, 3 } } });
-    for (const double x : { -8.0_mm, -4.0_mm, -1.0_mm, 0.0, 2.5_mm })
+    for (const auto& [name, tip] : kFlats)
     {
-      const double top = (kFlat + std::abs(x)) * std::tan(flank); // where the rim touches
-      Eigen::Vector3d last = Eigen::Vector3d::Zero();
-      for (double depth = 0.0; depth < 4.0_mm; depth += kStep)
+      for (const double x : { -8.0_mm, -4.0_mm, -1.0_mm, 0.0, 2.5_mm })
       {
-        const Eigen::Vector3d force = springForce(pressed(valley, { x, 0.3_mm, top - depth }));
-        EXPECT_LT((force - last).norm(), 3.0 * kStep / std::cos(flank)) << flank << " " << depth;
-        EXPECT_GE(force.z(), last.z() - 0.1 * kStep) << flank << " " << depth;
-        last = force;
+        // where the rim touches, or is about to
+        const double top = (flatRadius(tip) + std::abs(x)) * std::tan(flank);
+        Eigen::Vector3d last = springForce(pressed(valley, { x, 0.3_mm, top }, 0.0, tip));
+        for (double depth = 0.0; depth < 4.0_mm; depth += kStep)
+        {
+          const Eigen::Vector3d force =
+            springForce(pressed(valley, { x, 0.3_mm, top - depth }, 0.0, tip));
+          EXPECT_LT((force - last).norm(), 3.1 * kStep / std::cos(flank))
+            << name << " " << x << " " << flank << " " << depth;
+          // a spring is stiffer the deeper; of a cone, the wider
+          const double wider =
+            ToolSolid(tip).radiusAt(depth).value / ToolSolid(tip).radiusAt(depth - kStep).value;
+          EXPECT_GE(force.z(), last.z() / wider - 0.1 * kStep)
+            << name << " " << flank << " " << depth;
+          last = force;
+        }
       }
     }
   }
@@ -132,13 +255,13 @@ TEST(FlatEnd, LiftChangesAsItsAreaSays)
   const Surface block = test::makeSurface(test::block({ 60.0_mm, 60.0_mm, 30.0_mm }, 16));
   const Surface sheet = test::makeSurface(
     test::sheet(60.0_mm, 30, [](double x, double y) { return 3.0 * x * x - 2.0 * x * y; }));
-  const ToolSolid solid(kPunch);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   constexpr double kStep = 1e-8;
-  for (int i = 0; i < 300; ++i)
+  for (int i = 0; i < 1200; ++i)
   {
-    const Surface& surface = i % 2 == 0 ? block : sheet;
+    const Surface& surface = i / 2 % 2 == 0 ? block : sheet;
+    const ToolSolid solid(kFlats[static_cast<std::size_t>(i) % kFlats.size()].second);
     const Eigen::Vector3d axis(0.4 * unit(random), 0.4 * unit(random), -1.0);
     ToolPose pose{ .apex = { 33.0_mm * unit(random), 33.0_mm * unit(random),
                      4.0_mm * unit(random) },
@@ -159,48 +282,60 @@ TEST(FlatEnd, LiftChangesAsItsAreaSays)
   }
 }
 
-// by integrals over the ball's rings
+// by discs of what the tool and a paraboloid have in common
 TEST(FlatEnd, InABallIsThatOfItsTopAndInAHollowThatOfItsMiddle)
 {
-  for (const double radius : { 20.0_mm, 50.0_mm, -60.0_mm })
+  for (const auto& [name, tip] : kFlats)
   {
-    const double rise = 0.5 * kFlat * kFlat / radius;
-    for (const double depth : { 0.02_mm, 0.2_mm, 0.6_mm, 1.5_mm, 4.0_mm })
+    const ToolSolid solid(tip);
+    for (const double radius : { 20.0_mm, 50.0_mm, -60.0_mm })
     {
-      double lift = 0.0;
-      constexpr int kRings = 20'000;
-      for (int i = 0; i < kRings; ++i)
+      for (const double depth : { 0.02_mm, 0.2_mm, 0.6_mm, 1.5_mm, 4.0_mm })
       {
-        const double r = kFlat * (i + 0.5) / kRings;
-        const double ring = 2.0 * std::numbers::pi * r * kFlat / kRings;
-        const double over = std::max(0.0, depth - rise * r * r / (kFlat * kFlat));
-        lift += 0.5 * ring * over * over;
+        constexpr int kDiscs = 10'000;
+        const double top = depth + std::max(0.0, -0.5 * std::pow(baseRadius(tip), 2) / radius);
+        double lift = 0.0;
+        for (int i = 0; i < kDiscs; ++i)
+        {
+          const double z = top * (i + 0.5) / kDiscs;
+          const double own = std::pow(circleAt(solid, z), 2);
+          const double body = 2.0 * radius * (depth - z);
+          const double both = radius > 0.0 ? std::min(own, body) : own - std::max(0.0, body);
+          lift += std::numbers::pi * std::max(0.0, both) * z * top / kDiscs;
+        }
+        const Immersion there = flatImmersionOf(solid, lift, 1.0 / radius);
+        EXPECT_NEAR(there.depth, depth, 2e-3 * depth) << name << " " << radius << " " << depth;
       }
-      const Immersion there = flatImmersionOf(kFlat, lift, 1.0 / radius);
-      EXPECT_NEAR(there.depth, depth, 1e-5 * depth) << radius;
     }
   }
 }
 
 TEST(FlatEnd, DepthChangesAsItsSlopesSay)
 {
-  for (const double curvature : { -15.0, 0.0, 1e-9, 12.0, 60.0 })
+  for (const auto& [name, tip] : kFlats)
   {
-    for (const double lift : { 1e-15, 2e-13, 5e-11 })
+    const ToolSolid solid(tip);
+    for (const double curvature : { -60.0, -15.0, 0.0, 1e-9, 12.0, 60.0 })
     {
-      const Immersion here = flatImmersionOf(kFlat, lift, curvature);
-      constexpr double step = 1e-6;
-      const auto slope = [&](double l, double k)
+      for (const double lift : { 1e-15, 2e-13, 5e-11, 3e-10, 2e-9 })
       {
-        const auto at = [&](double part)
+        const Immersion here = flatImmersionOf(solid, lift, curvature);
+        constexpr double step = 3e-4;
+        const auto slope = [&](double l, double k)
         {
-          return flatImmersionOf(kFlat, lift * (1.0 + part * l * step), curvature + part * k * step)
-            .depth;
+          const auto at = [&](double part)
+          {
+            return flatImmersionOf(
+              solid, lift * (1.0 + part * l * step), curvature + part * k * step)
+              .depth;
+          };
+          return (at(1.0) - at(-1.0)) / (2.0 * step);
         };
-        return (at(1.0) - at(-1.0)) / (2.0 * step);
-      };
-      EXPECT_NEAR(slope(1.0, 0.0), lift * here.byLift, 1e-6 * std::abs(here.depth) + 1e-12);
-      EXPECT_NEAR(slope(0.0, 1.0), here.byCurvature, 1e-5 * kFlat * kFlat);
+        EXPECT_NEAR(slope(1.0, 0.0), lift * here.byLift, 1e-5 * std::abs(here.depth) + 1e-12)
+          << name << " " << curvature << " " << lift;
+        EXPECT_NEAR(slope(0.0, 1.0), here.byCurvature, 1e-5 * kFlat * kFlat)
+          << name << " " << curvature << " " << lift;
+      }
     }
   }
 }

@@ -111,23 +111,32 @@ TEST_P(ClosedLoop, GivesNoEnergyOnACoarseBody)
   }
 }
 
-// pushed out of the body the nearest way, they would gain up to seven times what was in them
-TEST(SharpTool, GainsNoEnergy)
+class SharpTool : public ClosedLoop
 {
+};
+
+// pushed out of the body the nearest way, they would gain up to seven times what was in them
+TEST_P(SharpTool, GainsNoEnergy)
+{
+  // where a law asks for more than the depth, one depth stands for the integral over it
+  const bool isExact = GetParam() == LawMode::Exact;
   for (const Tip& tip : { Tip{ ConeTip{ 30.0_deg, 10.0_mm } }, Tip{ ConeTip{ 60.0_deg, 10.0_mm } },
          Tip{ TruncatedConeTip{ 45.0_deg, 2.0_mm, 8.0_mm } }, Tip{ PunchTip{ 5.0_mm } } })
   {
     for (const auto& [cells, bumps] : { std::pair(9, 0.5_mm), { 20, 0.1_mm } })
     {
-      const std::vector<double> gains = gainsOf(tip, LawMode::Exact, 50, cells, bumps);
-      EXPECT_LT(gains[gains.size() / 2], 5e-5) << tip.index() << ' ' << cells;
-      EXPECT_LT(gains.back(), 1e-3) << tip.index() << ' ' << cells;
+      const std::vector<double> gains = gainsOf(tip, GetParam(), 50, cells, bumps);
+      EXPECT_LT(gains[gains.size() / 2], isExact ? 5e-5 : 1e-3) << tip.index() << ' ' << cells;
+      EXPECT_LT(gains.back(), isExact ? 1e-3 : 2e-3) << tip.index() << ' ' << cells;
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, ClosedLoop, testing::Values(LawMode::Exact, LawMode::Corrected),
-  [](const auto& mode) { return mode.param == LawMode::Exact ? "exact" : "corrected"; });
+const auto bothLaws = testing::Values(LawMode::Exact, LawMode::Corrected);
+const auto lawName = [](const auto& mode)
+{ return mode.param == LawMode::Exact ? "exact" : "corrected"; };
+INSTANTIATE_TEST_SUITE_P(Laws, ClosedLoop, bothLaws, lawName);
+INSTANTIATE_TEST_SUITE_P(Laws, SharpTool, bothLaws, lawName);
 
 } // namespace
 } // namespace palp
