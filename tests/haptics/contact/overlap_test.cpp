@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace palp
@@ -29,6 +30,9 @@ const std::vector<std::pair<const char*, Tip>> kSharp = {
   { "truncated cone",
     TruncatedConeTip{ .halfAngle = 45.0_deg, .flatRadius = 2.0_mm, .baseRadius = 8.0_mm } },
 };
+
+// the others go by their lift: flat_end_test.cpp
+const auto kPointed = std::span(kSharp).first(3);
 
 const Eigen::Vector3d kSize(60.0_mm, 60.0_mm, 30.0_mm);
 constexpr double kTop = 0.0;
@@ -218,18 +222,10 @@ TEST(Overlap, NormalWeightAndPlaceChangeAsTheirSlopesSay)
   }
 }
 
-// those with a flat go by their lift: flat_end_test.cpp
-std::vector<std::pair<const char*, Tip>> pointed()
-{
-  auto tools = kSharp;
-  std::erase_if(tools, [](const auto& one) { return flatRadius(one.second) > 0.0; });
-  return tools;
-}
-
 TEST(Immersion, IsTheDepthAtWhichAPlaneTakesAsMuch)
 {
   AboutEdges poses;
-  for (const auto& [name, tip] : pointed())
+  for (const auto& [name, tip] : kPointed)
   {
     const ToolSolid solid(tip);
     for (int i = 0; i < 300; ++i)
@@ -248,7 +244,7 @@ TEST(Immersion, IsTheDepthAtWhichAPlaneTakesAsMuch)
 TEST(Immersion, InABallIsThatOfItsTop)
 {
   const double radius = 50.0_mm;
-  for (const auto& [name, tip] : pointed())
+  for (const auto& [name, tip] : kPointed)
   {
     for (const double depth : { 0.05_mm, 0.3_mm, 1.0_mm, 2.5_mm })
     {
