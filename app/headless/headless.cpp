@@ -76,6 +76,19 @@ void tellLimits(const Recording& recording, const Sample& deepest)
   }
 }
 
+// which another place than the deepest one may have felt
+void tellStrongest(const Recording& recording, const Sample& deepest)
+{
+  constexpr double kAsStrong = 1.01;
+  const Sample& most = *std::ranges::max_element(
+    recording.samples, {}, [](const Sample& sample) { return sample.response.force; });
+  if (most.response.force > kAsStrong * deepest.response.force)
+  {
+    std::cerr << "palp: largest force " << most.response.force << " N, "
+              << units::toMillimeters(most.contact.depth) << " mm deep, at " << most.time << " s\n";
+  }
+}
+
 // path: null where places or a recording are pressed
 void tell(const Recording& recording, const Calibration* calibration, const ScriptedPath* path)
 {
@@ -109,6 +122,7 @@ void tell(const Recording& recording, const Calibration* calibration, const Scri
               << (calibration->covers(deepest->contact.depth) ? "" : " (estimated)");
   }
   std::cerr << '\n';
+  tellStrongest(recording, *deepest);
   if (calibration && !calibration->fits(deepest->contact))
   {
     std::cerr

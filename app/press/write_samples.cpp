@@ -186,7 +186,8 @@ void describeRecording(std::ostream& out, const Recording& recording)
       << "# tool: " << describeTip(recording.scene.law.tip()) << '\n';
   describeTissues(out, recording);
   out << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "
-         "and limits; force_x/y/z_N: sent to the device\n"
+         "and limits; force_x/y/z_N: sent to the device; stiffness_N_per_mm: slope of force_N over "
+         "depth_mm\n"
       << "# force_N = force of the paper's law (of the exact one where the paper has none) times "
          "all factors\n";
   if (hasMemory(recording.scene))

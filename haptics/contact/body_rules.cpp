@@ -35,9 +35,9 @@ Rule lobeRule(const Surface& surface, const Contact& contact, Base base) noexcep
     "rigid, palp organ and --organ take the bending into account" };
 }
 
-Rule openRule(const Contact& contact) noexcept
+Rule openRule(const Surface& surface, const Contact& contact) noexcept
 {
-  const bool isUnknown = contact.touching() && std::isinf(contact.thickness);
+  const bool isUnknown = contact.touching() && !surface.closed() && std::isinf(contact.thickness);
   return { "open", "-", isUnknown ? 1.0 : 0.0, 0.5,
     "the surface is open, and what lies behind it is not known: the body is taken as without end, "
     "too soft by a fifth where its base is six contact radii below" };

@@ -25,7 +25,7 @@ namespace palp
 ///
 /// @source    haptics/force/linear/layer_contact.h
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] Rule openRule(const Contact& contact) noexcept;
+[[nodiscard]] Rule openRule(const Surface& surface, const Contact& contact) noexcept;
 
 /// Whether the surface below a tool is not the even one that it is taken as.
 /// @realtime  pure; no allocation, no lock, no exception

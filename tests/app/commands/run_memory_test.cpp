@@ -67,6 +67,26 @@ TEST_F(RunCommand, FrictionIsInTheForceAndInTheSamples)
   EXPECT_NEAR(samples["force_z_N"].back(), samples["force_N"].back(), 1e-7);
 }
 
+// which is not that of the deepest place, where the tissue has relaxed meanwhile
+TEST_F(RunCommand, TellsTheLargestForce)
+{
+  std::ostringstream rows;
+  rows << "0,0,0," << topMm() + 1 << "\n0.05,0,0," << topMm() - 3 << "\n0.5,0,0," << topMm() - 3.2
+       << "\n";
+  const auto path = writePath(folder_.path(), rows.str().c_str());
+  const std::filesystem::path out = folder_.path() / "out";
+  const Finished run = palp("run " + block() + " --no-picture --relaxation 0.8:20ms --path " +
+    path.string() + kTissue + "--out " + out.string());
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::string words = "palp: largest force ";
+  const std::size_t place = run.err.find(words);
+  ASSERT_NE(place, std::string::npos) << run.err;
+  const double most = *std::ranges::max_element(readCsv(out / "samples.csv")["force_N"]);
+  EXPECT_NEAR(std::stod(run.err.substr(place + words.size())), most, 1e-4 * most);
+  EXPECT_EQ(
+    press(std::string("--no-picture") + kTissue, "plain").err.find(words), std::string::npos);
+}
+
 TEST_F(RunCommand, WithoutThemNothingChanges)
 {
   ASSERT_EQ(press(std::string("--no-picture") + kTissue, "plain").code, 0);

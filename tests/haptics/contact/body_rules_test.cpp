@@ -104,13 +104,19 @@ TEST(OpenRule, SeesThatNothingIsKnownBehindASurface)
         [&](int point) { return block.first[static_cast<std::size_t>(point)].z() < -1.0_um; });
     });
   const Surface sheet = test::makeSurface(std::move(block));
-  const auto holds = [](const Surface& surface, double depth) {
-    return openRule(pressed(surface, { 3.0_mm, 5.0_mm, 0.0 }, depth, -Vector3d::UnitZ())).holds();
+  const auto holds = [](const Surface& surface, double depth)
+  {
+    return openRule(surface, pressed(surface, { 3.0_mm, 5.0_mm, 0.0 }, depth, -Vector3d::UnitZ()))
+      .holds();
   };
   EXPECT_TRUE(holds(whole, 1.0_mm));
   EXPECT_FALSE(holds(sheet, 1.0_mm));
   EXPECT_FALSE(holds(sheet, 12.0_mm));
   EXPECT_TRUE(holds(sheet, -1.0_mm)) << "nothing is touched";
+  // by the points in the tool alone, which measures no thickness
+  const ToolPose pose{ { 3.0_mm, 5.0_mm, -1.0_mm }, -Vector3d::UnitZ(), Vector3d::Zero() };
+  EXPECT_TRUE(
+    openRule(whole, findContact(whole, SphereTip{ 10.0_mm }, pose, ContactRule::Paper)).holds());
 }
 
 // A block whose top turns at x = 0 over a fillet, in triangles that are small there.
