@@ -39,7 +39,7 @@ struct Neighborhood
   PatchBall ball;
   Patch patch;
   int triangle = -1;   // nearest
-  double apart = 0.0;  // from the nearest point [m]
+  double held = 1.0;   // part that is left past the edge of a sheet [-]
   double raised = 0.0; // the ball's center, off the surface [m]
 };
 
@@ -65,21 +65,20 @@ double shallowPart(double distance, double smoothing) noexcept
   return std::clamp(2.0 + distance / (kShallow * smoothing), 0.0, 1.0);
 }
 
-// @param from  the nearest point to the position, whatever side it is on [m]
+// @param distance  of the nearest point, or about as high as the place is [m]
+// @param inside    how far it is inside the body [-]
+// @param outward   how that distance changes as the place moves
 Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vector3d& position,
-  double distance, const Eigen::Vector3d& from) noexcept
+  double distance, double inside, const Eigen::Vector3d& outward) noexcept
 {
   const BallSize size = rule(distance);
   const Sloped turning = turningOf(distance, size.smoothing);
   const PatchBall ball{ position, std::sqrt(size.squared.value), turning.value };
-  const double inside = surface.closed() ? (distance < 0.0 ? 1.0 : 0.0)
-                                         : smoothStep(0.5 - 0.5 * distance / from.norm());
   Patch patch = patchWithin(surface, ball, inside);
   // from here on they are over the place, with the ball that belongs to it
   const Eigen::Vector3d mean = patch.normal.normalized();
-  const Eigen::Vector3d away = mean +
-    shallowPart(distance, size.smoothing.value) *
-      (std::copysign(1.0, distance) * from.normalized() - mean);
+  const Eigen::Vector3d away =
+    mean + shallowPart(distance, size.smoothing.value) * (outward - mean);
   const PatchTurns& turns = patch.turns;
   patch.fading -= turning.slope * turns.moment * away;
   patch.volumeFading -= turning.slope * turns.volume * away;
@@ -97,13 +96,28 @@ bool isOrientationFlipped(const Neighborhood& here, const Eigen::Vector3d& outwa
     here.patch.orientationSum.norm() > kMajority * here.patch.orientationWeight;
 }
 
-// Part of a contact that is left where a tool behind a sheet has come past its edge: of that the
-// ball holds ever less.
-double heldPart(const Neighborhood& here) noexcept
+// about the nearest point
+// @param from  there to the position, whatever side it is on [m]
+Neighborhood lookAbout(const Surface& surface, const BallRule& rule,
+  const Eigen::Vector3d& position, double distance, const Eigen::Vector3d& from) noexcept
 {
+  const double inside = surface.closed() ? (distance < 0.0 ? 1.0 : 0.0)
+                                         : smoothStep(0.5 - 0.5 * distance / from.norm());
+  Neighborhood here = look(
+    surface, rule, position, distance, inside, std::copysign(1.0, distance) * from.normalized());
+  if (surface.closed() || !here.patch.isOpen)
+  {
+    return here;
+  }
+  // past the border, the nearest point is farther than the plane of the sheet is below
+  const Height height =
+    HeightOver(here.patch, rule, distance, here.size)(distance, 0.0, Eigen::Vector3d::Zero());
+  // behind the sheet, the ball holds ever less of it
   const double smoothing = here.size.smoothing.value;
-  const double held = here.size.squared.value - here.apart * here.apart;
-  return smoothing > 0.0 ? smoothStep(held / (smoothing * smoothing)) : 1.0;
+  const double held = here.size.squared.value - from.squaredNorm();
+  here = look(surface, rule, position, height.value, inside, height.slope);
+  here.held = smoothing > 0.0 ? smoothStep(held / (smoothing * smoothing)) : 1.0;
+  return here;
 }
 
 // A part of something, and how it changes as a place moves.
@@ -164,17 +178,16 @@ std::optional<Neighborhood> lookBelow(
     nearest.distance = off;
   }
   const Eigen::Vector3d from = position - nearest.point;
-  Neighborhood here = look(surface, rule, position, nearest.distance, from);
+  Neighborhood here = lookAbout(surface, rule, position, nearest.distance, from);
   if (!surface.crossing() && isOrientationFlipped(here, from))
   {
-    here = look(surface, rule, position, -nearest.distance, from);
+    here = lookAbout(surface, rule, position, -nearest.distance, from);
     if (here.distance >= reach)
     {
       return {};
     }
   }
   here.triangle = nearest.triangle;
-  here.apart = from.norm();
   here.raised = raised;
   return here;
 }
@@ -217,7 +230,8 @@ Contact ballContact(
   Sloped part = smoothMin({ share / kCoherent, 1.0 / kCoherent }, { 1.0 }, kGradual);
   if (!surface.closed())
   {
-    const double front = std::clamp(facing / kFront, 0.0, 1.0) * heldPart(*here);
+    const double front =
+      std::clamp(-pose.axis.dot(contact.bodyNormal) / kFront, 0.0, 1.0) * here->held;
     part = { front * part.value, front * part.slope };
   }
   contact.depth = part.value * depth;

@@ -121,27 +121,29 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
   {
     shape_ = ShapeField(tree_, { points_, triangles_, across_ }, creases_);
   }
-  sums_ = FacetSums(tree_, openTriangles());
+  sums_ = FacetSums(tree_, openSides());
 }
 
-// with a side that has not one neighbor which goes along it the other way
-std::vector<bool> Surface::openTriangles() const
+// those that have not one neighbor which goes along them the other way
+std::vector<std::uint8_t> Surface::openSides() const
 {
   const auto goesAlong = [this](int triangle, int from, int to)
   {
     const auto& [a, b, c] = triangles_[at(triangle)];
     return (a == from && b == to) || (b == from && c == to) || (c == from && a == to);
   };
-  std::vector<bool> isOpen(triangles_.size(), false);
+  std::vector<std::uint8_t> open(triangles_.size(), 0);
   for (std::size_t i = 0; i < triangles_.size(); ++i)
   {
-    for (std::size_t k = 0; k < 3 && !isOpen[i]; ++k)
+    for (std::size_t k = 0; k < 3; ++k)
     {
       const int other = across_[i][k];
-      isOpen[i] = other < 0 || !goesAlong(other, triangles_[i][(k + 1) % 3], triangles_[i][k]);
+      const bool isJoined =
+        other >= 0 && goesAlong(other, triangles_[i][(k + 1) % 3], triangles_[i][k]);
+      open[i] |= static_cast<std::uint8_t>(isJoined ? 0 : 1 << k);
     }
   }
-  return isOpen;
+  return open;
 }
 
 // whether they are closed

@@ -126,7 +126,7 @@ public:
 
 private:
   bool linkEdges();
-  [[nodiscard]] std::vector<bool> openTriangles() const;
+  [[nodiscard]] std::vector<std::uint8_t> openSides() const;
   void spreadOpenEdges();
   [[nodiscard]] std::optional<Eigen::Vector3d> findOverlap() const;
   void dropWhatIsBuried();

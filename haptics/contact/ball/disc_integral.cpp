@@ -196,8 +196,8 @@ double solidAngleOf(
 
 // By Stokes's theorem, of the radial fields whose divergence is w and 1 and which vanish on the
 // ball: x (Q / 3 - q / 5 - 2 Q^2.5 / 15 q^1.5), and its slope over Q, x (1 - (Q / q)^1.5) / 3.
-SeamIntegral seamsOf(
-  const Facet& facet, const Eigen::Vector3d& center, double squaredRadius) noexcept
+SeamIntegral seamsOf(const Facet& facet, const Eigen::Vector3d& center, double squaredRadius,
+  std::uint8_t sides) noexcept
 {
   const double cubed = squaredRadius * std::sqrt(squaredRadius);
   CutTriangle one(facet, center, squaredRadius);
@@ -207,7 +207,7 @@ SeamIntegral seamsOf(
   {
     const CutSide& side = one.sides[k];
     const double length = side.length();
-    if (length > 0.0)
+    if (length > 0.0 && (sides >> k & 1U) != 0)
     {
       const Eigen::Vector3d across = one.corners[k].cross(one.side(k));
       const double nearer = cubed * inverseCubes(side, across.squaredNorm());
@@ -215,6 +215,7 @@ SeamIntegral seamsOf(
                         2.0 / 15.0 * squaredRadius * nearer) *
         across;
       seams.volume += kOneThird * (length - nearer) * across;
+      seams.rim -= 0.5 * nearer / squaredRadius * across;
     }
   }
   return seams;

@@ -39,16 +39,18 @@ struct DiscIntegral
 
 /// By how much the change of what one triangle adds to the moment and the volume of a body is more
 /// than -weight and -area times its normal, as the center of the ball moves: integrals along its
-/// sides within the ball, which cancel between the triangles of a closed surface.
+/// sides within the ball, which cancel between triangles that are joined there.
 struct SeamIntegral
 {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero(); ///< [m^4]
-  Eigen::Vector3d volume = Eigen::Vector3d::Zero(); ///< [m^2]
+  Eigen::Vector3d volume = Eigen::Vector3d::Zero(); ///< d moment / d Q [m^2]
+  Eigen::Vector3d rim = Eigen::Vector3d::Zero();    ///< d volume / d Q [-]
 };
 
 /// @param squaredRadius  Q [m^2], above 0
+/// @param sides          that count: bit k, of that from corner k
 /// @realtime             pure; no allocation, no lock, no exception
-[[nodiscard]] SeamIntegral seamsOf(
-  const Facet& facet, const Eigen::Vector3d& center, double squaredRadius) noexcept;
+[[nodiscard]] SeamIntegral seamsOf(const Facet& facet, const Eigen::Vector3d& center,
+  double squaredRadius, std::uint8_t sides = 0b111) noexcept;
 
 } // namespace palp

@@ -101,7 +101,7 @@ private:
   {
     const double within = without - rim_.value(); // up to whole spheres
     const double filled = within - kSphere * std::floor(within / kSphere);
-    if (!isOpen_ && filled > kUnsure && filled < kSphere - kUnsure)
+    if (!patch_.isOpen && filled > kUnsure && filled < kSphere - kUnsure)
     {
       return filled + faded_;
     }
@@ -151,7 +151,14 @@ private:
     {
       return;
     }
-    isOpen_ = isOpen_ || surface_.sums().isOpen(index);
+    if (const std::uint8_t open = surface_.sums().openSides(index); open != 0)
+    {
+      patch_.isOpen = true;
+      const SeamIntegral border = seamsOf(facet, ball_.center, squaredRadius_, open);
+      patch_.fading -= border.moment;
+      patch_.volumeFading -= border.volume;
+      patch_.rim -= border.rim;
+    }
     const Counted one = countedOf(facet, ball_);
     const double part = one.part;
     const double nearer = -one.height * (byArea_ * within.area + 0.2 * within.weight);
@@ -204,7 +211,6 @@ private:
   double byAngle_; // of the volume [m^3]
   double full_;    // of w [m^5]
   RimAngle rim_;
-  bool isOpen_ = false;
   double faded_ = 0.0; // solid angle that does not count [rad^2]
   Patch patch_;
 };

@@ -35,16 +35,18 @@ struct Patch
   double weight = 0.0;                              ///< of w = Q - q over the area [m^4]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< of w times the outward normal [m^4]
   Eigen::Vector3d area = Eigen::Vector3d::Zero();   ///< of the outward normal [m^2]
-  Eigen::Vector3d rim = Eigen::Vector3d::Zero();    ///< d area / d Q [-]
+  Eigen::Vector3d rim = Eigen::Vector3d::Zero();    ///< d (area + volumeFading) / d Q [-]
   double moment = 0.0;                              ///< of w over the body within the ball [m^5]
   double volume = 0.0;                              ///< of the same: d moment / d Q [m^3]
   double solidAngle = 0.0;      ///< of the ball's sphere within the body [rad^2]
   double solidAngleSlope = 0.0; ///< over Q [rad^2/m^2]
-  Eigen::Vector3d fading = Eigen::Vector3d::Zero();       ///< -d moment by what fades out [m^4]
+  /// -d moment by what fades out, and by what comes in at the border of an open sheet [m^4].
+  Eigen::Vector3d fading = Eigen::Vector3d::Zero();
   Eigen::Vector3d volumeFading = Eigen::Vector3d::Zero(); ///< -d volume by the same [m^2]
   Eigen::Vector3d orientationSum =
     Eigen::Vector3d::Zero();      ///< as normal, with all triangles in full
   double orientationWeight = 0.0; ///< as weight, with all triangles in full
+  bool isOpen = false;            ///< whether the border of a sheet is within the ball
   PatchSlopes slopes{};
   PatchTurns turns{};
 };

@@ -95,21 +95,21 @@ bool FacetSum::areAllSeen(const Eigen::Vector3d& center, double reach, double si
   return cosine > 0.0 && over > 0.0 && cosine * over >= sine * reach;
 }
 
-FacetSums::FacetSums(const BoxTree& tree, const std::vector<bool>& isOpen)
+FacetSums::FacetSums(const BoxTree& tree, const std::vector<std::uint8_t>& openSides)
   : index_(tree.nodes().size(), -1)
 {
   const std::span<const Facet> facets = tree.facets();
   std::vector<std::int32_t> open(facets.size() + 1, 0); // so many before
   for (std::size_t i = 0; i < facets.size(); ++i)
   {
-    open[i + 1] = open[i] + (isOpen[at(tree.triangle(static_cast<int>(i)))] ? 1 : 0);
+    open[i + 1] = open[i] + (openSides[at(tree.triangle(static_cast<int>(i)))] != 0 ? 1 : 0);
   }
   if (open.back() > 0)
   {
-    isOpen_.resize(facets.size());
+    open_.resize(facets.size());
     for (std::size_t i = 0; i < facets.size(); ++i)
     {
-      isOpen_[i] = open[i + 1] > open[i];
+      open_[i] = openSides[at(tree.triangle(static_cast<int>(i)))];
     }
   }
   const auto use = [&](std::size_t node, const Span& span)

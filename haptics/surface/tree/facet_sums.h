@@ -49,9 +49,9 @@ public:
   FacetSums() = default;
 
   /// @param tree     outlives this object only where it is asked about its nodes
-  /// @param isOpen   for each triangle, whether a side of it has not one neighbor that is oriented
-  ///                 as it is; of such there are no sums
-  FacetSums(const BoxTree& tree, const std::vector<bool>& isOpen);
+  /// @param open     for each triangle, which of its sides have not one neighbor that is oriented
+  ///                 as it is: bit k, of that from corner k; of such triangles there are no sums
+  FacetSums(const BoxTree& tree, const std::vector<std::uint8_t>& open);
 
   /// @param node  index in the tree
   /// @return      none: its triangles are to be visited
@@ -62,18 +62,18 @@ public:
     return index < 0 ? nullptr : &sums_[at(index)];
   }
 
-  /// Whether a facet has a side that the rim of what is within reach does not tell of.
+  /// The open sides of a facet, of which the rim of what is within reach does not tell.
   /// @param facet  index in the tree
   /// @realtime     no allocation, no lock, no exception
-  [[nodiscard]] bool isOpen(int facet) const noexcept
+  [[nodiscard]] std::uint8_t openSides(int facet) const noexcept
   {
-    return !isOpen_.empty() && isOpen_[at(facet)];
+    return open_.empty() ? std::uint8_t{ 0 } : open_[at(facet)];
   }
 
 private:
   std::vector<std::int32_t> index_; // per node, -1: none
   std::vector<FacetSum> sums_;
-  std::vector<bool> isOpen_; // per facet; empty: none
+  std::vector<std::uint8_t> open_; // per facet; empty: none
 };
 
 } // namespace palp
