@@ -35,9 +35,9 @@ struct Reach
 /// tool touches a triangle, and is that of the true plane or sphere under a mesh of one.
 ///
 /// A tool without a round nose is as deep as it would be in a smooth body from which its circles of
-/// contact cut as much: half over an edge a cone is 0.79 times as deep, a punch half. It is met
-/// where the circle of contact is, not where its flank first touches the edge beside; a flat end
-/// that leans is as deep as its mean.
+/// contact cut as much, by volume, or by lift where it has a flat: half over an edge a cone is 0.79
+/// times as deep, a punch 0.71, which pushes half as much. It is met where the circle of contact
+/// is, not where its flank first touches the edge beside.
 ///
 /// The contact carries the slopes of what a law asks for, so that the force is the gradient of one
 /// energy: a tool that is pressed in, dragged along and lifted gains no work.
@@ -45,7 +45,7 @@ struct Reach
 /// Two lobes at once share the normal and, where they press against a round nose, fade the depth.
 /// A nose whose center is inside a body is pushed out the nearest way; where a triangle is
 /// turned over, those about it say what is inside. An open sheet is pressed from its front only, by
-/// tools whose axis points against its normal; past its edge, contact fades out.
+/// tools whose axis points against its normal; past its edge, contact fades out, and pushes away.
 ///
 /// @param surface  undeformed
 /// @param tip      checked

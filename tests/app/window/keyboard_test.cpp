@@ -166,6 +166,7 @@ TEST_F(Keyboard, HidesTheToolAndShowsItAgain)
     waitForFrames();
     return canvas_->grabFramebuffer();
   };
+  window_->resize(kUsual);
   keys(Qt::Key_PageDown, 10);
   waitForRest();
   const QImage shown = still();

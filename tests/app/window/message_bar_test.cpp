@@ -142,6 +142,7 @@ TEST_F(MessageOverPicture, CoversNothingThatTheFootOfThePictureTells)
 // a picture takes longer than what works in the background may hold up the window
 TEST_F(MessageOverPicture, ALineWithAButtonMovesNothing)
 {
+  window_->resize(kUsual); // where the line is not longer than the picture is wide
   auto* bar = window_->findChild<MessageBar*>();
   bar->tell({});
   (void)picture();

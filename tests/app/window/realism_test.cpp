@@ -71,6 +71,7 @@ protected:
 // this machine has no graphics card, or this test nothing to say of its default
 TEST_F(RealismTest, IsOffWithoutACardTurnedOnByHandAndRemembered)
 {
+  window_->resize(kUsual);                 // as the next one will be
   QTest::mouseMove(canvas_, QPoint(5, 5)); // off the body
   const QImage plain = still();
   EXPECT_EQ(action()->isChecked(), !drawsInSoftware(rendererNameOf(*canvas_->renderWindow())));

@@ -45,6 +45,7 @@ protected:
     test::application();
     session_ = std::make_unique<Session>(plan, silent_);
     window_ = std::make_unique<Window>(*session_, silent_);
+    window_->resize(kSmall);
     window_->show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
     QApplication::setActiveWindow(window_.get()); // no window manager does it here
@@ -227,6 +228,9 @@ protected:
   }
 
   static constexpr int kPatience = 30'000; // [ms], for a machine that does much else
+  // the picture is drawn by processors that tests have to share
+  static constexpr QSize kSmall{ 1076, 752 };
+  static constexpr QSize kUsual{ 1440, 860 };
   static constexpr int kAttempts = 10;
 
   test::TemporaryFolder folder_;
