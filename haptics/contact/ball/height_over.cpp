@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace palp
@@ -22,6 +23,17 @@ constexpr double kSteepest = 0.2;    // [-] of what a plane's moment loses
 constexpr double kFastest = 2.0;     // [-] by which a height changes as the ball moves
 constexpr double kClose = 1e-11;     // [m]
 
+// Q beyond that of the patch at which, by its orders, no volume of it is left [m^2]
+double leastMore(const Patch& patch, double ball) noexcept
+{
+  const double first = 0.5 * ball * patch.solidAngle;
+  const double second = 0.25 * patch.solidAngle / ball + 0.5 * ball * patch.solidAngleSlope;
+  const double square = first * first - 2.0 * second * patch.volume;
+  return patch.volume > 0.0 && first > 0.0 && square > 0.0
+    ? -2.0 * patch.volume / (first + std::sqrt(square))
+    : -std::numeric_limits<double>::infinity();
+}
+
 } // namespace
 
 HeightOver::HeightOver(
@@ -33,6 +45,7 @@ HeightOver::HeightOver(
   , given_(given.squared.value)
   , ball_(std::sqrt(given_))
   , ballSlope_(0.5 * given.squared.slope / ball_ * patch.normal.normalized())
+  , leastMore_(leastMore(patch, ball_))
   , part_(smoothStep((1.0 - nearest * nearest / given_ - kSmallest) / (kSmall - kSmallest)))
   , moment_(std::clamp(patch.moment, 0.0, 8.0 * std::numbers::pi / 15.0 * given_ * given_ * ball_))
 {
@@ -46,7 +59,7 @@ double HeightOver::Excess::byHeight(double fallThere) const noexcept
 HeightOver::Excess HeightOver::excessAt(double height, double curvature) const noexcept
 {
   const auto [own, growth] = (*rule_)(height).squared;
-  const double more = own - given_;
+  const double more = std::max(own - given_, leastMore_); // a smaller ball has nothing less
   const Lens body = lensOf(given_, height, curvature);
   const double volume = patch_->volume - body.volume;
   const double angle = patch_->solidAngle - body.solidAngle;
@@ -54,12 +67,12 @@ HeightOver::Excess HeightOver::excessAt(double height, double curvature) const n
   const double third =
     0.25 * angle / ball_ + 0.5 * ball_ * (patch_->solidAngleSlope - body.solidAngleSlope);
   const double square = height * height;
-  const double larger = std::max(0.0, own - square) / (given_ - square);
+  const double larger = std::max(0.0, given_ + more - square) / (given_ - square);
   return { .value =
              moment_ - body.moment + more * (volume + more * (0.5 * second + more * third / 6.0)),
     .byQ = volume + more * (second + 0.5 * more * third),
     .fall = -body.heightSlope * larger * larger,
-    .growth = growth,
+    .growth = more > leastMore_ ? growth : 0.0,
     .more = more };
 }
 

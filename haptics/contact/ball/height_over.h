@@ -59,8 +59,9 @@ private:
   double given_;              // Q [m^2]
   double ball_;               // radius [m]
   Eigen::Vector3d ballSlope_; // of that as the center moves [-]
-  double part_;               // of the moment that counts [-]
-  double moment_;             // [m^5]
+  double leastMore_; // Q of the smallest ball that has any of the mesh, beyond the given [m^2]
+  double part_;      // of the moment that counts [-]
+  double moment_;    // [m^5]
 };
 
 } // namespace palp

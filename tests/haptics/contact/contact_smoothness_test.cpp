@@ -134,5 +134,36 @@ TEST(ContactSmoothness, NothingJumps)
   }
 }
 
+// hardly wider than the ball, all of which comes in at about the same depth
+TEST(ContactSmoothness, InABowlABallIsPushedOutAsItGoesIn)
+{
+  constexpr double kStep = 0.01_mm;
+  for (const double wide : { 10.5_mm, 11.0_mm, 12.0_mm, 15.0_mm })
+  {
+    for (const int cells : { 10, 30 })
+    {
+      const Surface bowl = test::makeSurface(test::sheet(14.0_mm, cells,
+        [&](double x, double y) { return wide - std::sqrt(wide * wide - x * x - y * y); }));
+      for (const double aside : { 0.0, 0.3_mm, 1.0_mm })
+      {
+        Contact last;
+        for (double depth = 0.0; depth < 2.0_mm; depth += kStep)
+        {
+          const Contact here =
+            press(bowl, { aside, 0.4 * aside, -depth }, -Eigen::Vector3d::UnitZ());
+          if (last.depth > 0.1_mm)
+          {
+            EXPECT_GT(here.normal.z(), 0.7) << wide << " " << aside << " " << depth;
+            EXPECT_GT(here.depth, last.depth) << wide << " " << aside << " " << depth;
+            EXPECT_LT(here.depth, last.depth + 2.0 * kStep) << wide << " " << aside << " " << depth;
+          }
+          last = here;
+        }
+        EXPECT_GT(last.depth, 1.9_mm);
+      }
+    }
+  }
+}
+
 } // namespace
 } // namespace palp
