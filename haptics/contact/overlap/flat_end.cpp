@@ -83,7 +83,7 @@ Immersion flatImmersionOf(const ToolSolid& solid, double lift, double curvature)
     return std::array{ all.lift - lift, all.byHeight };
   };
   const double start = std::min(std::sqrt(2.0 * lift / flat), solid.top());
-  const double height = boundedNewton(start, { 0.0, solid.top() }, kClose, excess);
+  const double height = boundedNewton(start, { 0.0, solid.top() }, Immersion::kClose, excess);
   const double byLift = (1.0 + all.topByHeight) / all.byHeight;
   return { .depth = height + all.top,
     .byLift = byLift,

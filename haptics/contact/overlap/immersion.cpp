@@ -77,7 +77,7 @@ Immersion immersionOf(const ToolSolid& solid, const Eigen::Vector3d& normal, dou
     return std::array{ taken.volume - volume, taken.byHeight };
   };
   const double height =
-    boundedNewton(std::clamp(start, bracket.low, bracket.high), bracket, kClose, excess);
+    boundedNewton(std::clamp(start, bracket.low, bracket.high), bracket, Immersion::kClose, excess);
   const Section& section = taken.section;
   const double round = 0.5 / kPi * taken.bent.value;
   const double rising = 1.0 + round * section.growth + 0.5 / kPi * taken.bentSlope * section.area;

@@ -10,6 +10,8 @@ namespace palp
 /// How deep a tool is in a smooth body with which it has as much in common, and how that changes.
 struct Immersion
 {
+  static constexpr double kClose = 1e-12; ///< within which a depth is found [m]
+
   double depth = 0.0;                                 ///< of the apex, or the middle of a flat [m]
   double byVolume = 0.0;                              ///< [1/m^2]
   double byLift = 0.0;                                ///< [1/m^3]
@@ -18,8 +20,6 @@ struct Immersion
   double area = 0.0;                                  ///< of the body's surface in the tool [m^2]
   Eigen::Vector3d aside = Eigen::Vector3d::Zero();    ///< its middle, from the foot of the apex [m]
 };
-
-constexpr double kClose = 1e-12; ///< [m] within which a depth is found
 
 /// Of a pointed tool: the body is a half-space, with as much of a paraboloid on it as the rim of
 /// its surface in the tool encloses.
