@@ -94,9 +94,9 @@ void tell(const Recording& recording, const Calibration* calibration, const Scri
 {
   using units::toMillimeters;
   const Sample* deepest = recording.deepest();
+  const bool isFine = path && isFinerThanSamples(*path);
   if (!deepest)
   {
-    const bool isFine = path && isFinerThanSamples(*path);
     std::cerr << "palp: warning: the tool never touched the surface; the path may be in another "
                  "frame or unit"
               << (isFine ? ", or touch between whole milliseconds only, as it has rows closer "
@@ -123,6 +123,16 @@ void tell(const Recording& recording, const Calibration* calibration, const Scri
   }
   std::cerr << '\n';
   tellStrongest(recording, *deepest);
+  if (isFine)
+  {
+    std::cerr << "palp: warning: the path has rows closer than the whole milliseconds at which it "
+                 "is pressed: what is between is left out\n";
+  }
+  if (deepest->pose.axis.dot(deepest->contact.normal) > 0.0)
+  {
+    std::cerr << "palp: warning: the tool's axis points out of the surface there; it is the way "
+                 "from the shaft to the apex, 0,0,-1 for a press from above\n";
+  }
   if (calibration && !calibration->fits(deepest->contact))
   {
     std::cerr

@@ -225,10 +225,10 @@ TEST_F(RunCommand, SaysThatAPathWasRecordedOnAnotherSurface)
 // a press of 1.5 mm in 0.4 ms, between two samples; and one that stays away, row by millisecond
 TEST_F(RunCommand, TellsOfRowsThatAreFinerThanTheSamples)
 {
-  const auto said = [&](double lowest, double wait)
+  const auto said = [&](double lowest, double wait, double before = 1.0)
   {
     std::ostringstream rows;
-    rows << "0,0,0," << topMm() + 2 << "\n0.5,0,0," << topMm() + 1 << '\n'
+    rows << "0,0,0," << topMm() + 2 << "\n0.5,0,0," << topMm() + before << '\n'
          << 0.5 + 0.4 * wait << ",0,0," << topMm() + lowest << '\n'
          << 0.5 + 0.8 * wait << ",0,0," << topMm() + 1 << '\n';
     const auto path = writePath(folder_.path(), rows.str().c_str());
@@ -243,7 +243,30 @@ TEST_F(RunCommand, TellsOfRowsThatAreFinerThanTheSamples)
   const std::string coarse = said(0.5, 0.0025);
   EXPECT_NE(coarse.find("never touched"), std::string::npos) << coarse;
   EXPECT_EQ(coarse.find("milliseconds"), std::string::npos) << coarse;
-  EXPECT_EQ(said(-1.5, 0.1).find("never touched"), std::string::npos);
+  const std::string slow = said(-1.5, 0.1);
+  EXPECT_EQ(slow.find("never touched"), std::string::npos);
+  EXPECT_EQ(slow.find("milliseconds"), std::string::npos);
+  const std::string touched = said(-1.5, 0.001, -1.0);
+  EXPECT_EQ(touched.find("never touched"), std::string::npos) << touched;
+  EXPECT_NE(touched.find("whole milliseconds"), std::string::npos) << touched;
+}
+
+TEST_F(RunCommand, TellsOfAnAxisThatPointsOutOfTheSurface)
+{
+  const auto said = [&](int axis)
+  {
+    std::ostringstream rows;
+    rows << "time_s,x_mm,y_mm,z_mm,ax,ay,az\n0,0,0," << topMm() + 1 << ",0,0," << axis
+         << "\n0.1,0,0," << topMm() - 2 << ",0,0," << axis << '\n';
+    const std::filesystem::path path = folder_.path() / "press.csv";
+    std::ofstream(path) << rows.str();
+    const Finished run = palp("run " + block() + " --samples-only --overwrite --path " +
+      path.string() + " --out " + (folder_.path() / "out").string());
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_EQ(said(-1).find("axis"), std::string::npos);
+  EXPECT_NE(said(1).find("axis points out of the surface"), std::string::npos);
 }
 
 TEST_F(RunCommand, DrawsPicturesWithoutADisplay)
