@@ -213,6 +213,11 @@ private:
   [[nodiscard]] double number(std::string_view text) const
   {
     const std::optional<double> value = csvNumber(text);
+    if (!value && text.find_first_of(";\t") != std::string_view::npos)
+    {
+      fail("columns are not separated by commas; write rows as 0,1.5,-2,3 below a header " +
+        std::string(kHeader));
+    }
     if (!value || !std::isfinite(*value))
     {
       fail(std::string{ '"' }.append(printable(std::string(text.substr(0, 40)))) +
