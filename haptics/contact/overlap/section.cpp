@@ -123,7 +123,6 @@ const ToolSolid::Layer* wholeLayer(
 Section sectionWithin(
   const ToolSolid::Layer& layer, const Eigen::Vector3d& normal, double height) noexcept
 {
-  const bool isShaft = !(layer.slope > 0.0);
   const double over = height - normal.z() * layer.pole; // the plane over the pole
   const Eigen::Vector3d foot = height * normal;
   const auto meet = [&](std::size_t k)
@@ -131,9 +130,9 @@ Section sectionWithin(
     const Eigen::Vector2d& to = ToolSolid::corners()[k];
     const double across = normal.x() * to.x() + normal.y() * to.y();
     const double radius =
-      isShaft ? layer.radius : layer.slope * over / (normal.z() + layer.slope * across);
+      layer.isShaft() ? layer.radius : layer.slope * over / (normal.z() + layer.slope * across);
     const double z =
-      isShaft ? (height - radius * across) / normal.z() : layer.pole + radius / layer.slope;
+      layer.isShaft() ? (height - radius * across) / normal.z() : layer.pole + radius / layer.slope;
     return Eigen::Vector3d(radius * to.x() - foot.x(), radius * to.y() - foot.y(), z - foot.z());
   };
   Section section;
@@ -147,7 +146,7 @@ Section sectionWithin(
     section.moment += area / 3.0 * (from + to);
     from = to;
   }
-  if (isShaft)
+  if (layer.isShaft())
   {
     const double area = ToolSolid::crossArea(layer.radius);
     section.volume = layer.below + area * (height / normal.z() - layer.low);

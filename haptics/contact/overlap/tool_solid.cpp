@@ -94,7 +94,14 @@ void ToolSolid::add(double low, double high, double from, double to) noexcept
         rise * rise * ((layer.*field).entering - layer.upward(layer.*field, low));
     }
   }
-  layer.below = layer.volume.entering * crossArea(layer.radius);
+  if (count_ > 0) // of a pyramid cut off: another way to what the field says
+  {
+    const Layer& under = layers_[count_ - 1];
+    const double area = crossArea(under.radius);
+    const double areaAbove = crossArea(layer.radius);
+    layer.below =
+      under.below + (low - under.low) / 3.0 * (area + areaAbove + std::sqrt(area * areaAbove));
+  }
   layers_[count_++] = layer;
 }
 

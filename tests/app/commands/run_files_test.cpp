@@ -231,9 +231,7 @@ TEST_F(RunCommand, TellsOfRowsThatAreFinerThanTheSamples)
     rows << "0,0,0," << topMm() + 2 << "\n0.5,0,0," << topMm() + before << '\n'
          << 0.5 + 0.4 * wait << ",0,0," << topMm() + lowest << '\n'
          << 0.5 + 0.8 * wait << ",0,0," << topMm() + 1 << '\n';
-    const auto path = writePath(folder_.path(), rows.str().c_str());
-    const Finished run = palp("run " + block() + " --samples-only --overwrite --path " +
-      path.string() + " --out " + (folder_.path() / "out").string());
+    const Finished run = pressAlong(rows.str(), "--samples-only --overwrite", "out");
     EXPECT_EQ(run.code, 0) << run.err;
     return run.err;
   };

@@ -54,12 +54,10 @@ TEST_F(RunCommand, FrictionIsInTheForceAndInTheSamples)
   std::ostringstream rows;
   rows << "0,0,0," << topMm() + 1 << "\n0.1,0,0," << topMm() - 4 << "\n0.5,20,0," << topMm() - 4
        << "\n";
-  const auto path = writePath(folder_.path(), rows.str().c_str());
-  const std::filesystem::path out = folder_.path() / "out";
-  const Finished run = palp("run " + block() + " --no-picture --friction 0.4 --path " +
-    path.string() + kTissue + "--out " + out.string());
+  const Finished run =
+    pressAlong(rows.str(), std::string("--no-picture --friction 0.4") + kTissue, "out");
   ASSERT_EQ(run.code, 0) << run.err;
-  const CsvTable samples = readCsv(out / "samples.csv");
+  const CsvTable samples = readCsv(folder_.path() / "out/samples.csv");
   const double coulomb = 0.4 * samples["force_N"].back();
   EXPECT_GT(coulomb, 0.1);
   EXPECT_NEAR(samples["friction_x_N"].back(), -coulomb, 1e-3 * coulomb);
@@ -73,15 +71,14 @@ TEST_F(RunCommand, TellsTheLargestForce)
   std::ostringstream rows;
   rows << "0,0,0," << topMm() + 1 << "\n0.05,0,0," << topMm() - 3 << "\n0.5,0,0," << topMm() - 3.2
        << "\n";
-  const auto path = writePath(folder_.path(), rows.str().c_str());
-  const std::filesystem::path out = folder_.path() / "out";
-  const Finished run = palp("run " + block() + " --no-picture --relaxation 0.8:20ms --path " +
-    path.string() + kTissue + "--out " + out.string());
+  const Finished run =
+    pressAlong(rows.str(), std::string("--no-picture --relaxation 0.8:20ms") + kTissue, "out");
   ASSERT_EQ(run.code, 0) << run.err;
   const std::string words = "palp: largest force ";
   const std::size_t place = run.err.find(words);
   ASSERT_NE(place, std::string::npos) << run.err;
-  const double most = *std::ranges::max_element(readCsv(out / "samples.csv")["force_N"]);
+  const double most =
+    *std::ranges::max_element(readCsv(folder_.path() / "out/samples.csv")["force_N"]);
   EXPECT_NEAR(std::stod(run.err.substr(place + words.size())), most, 1e-4 * most);
   EXPECT_EQ(
     press(std::string("--no-picture") + kTissue, "plain").err.find(words), std::string::npos);

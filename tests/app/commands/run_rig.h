@@ -57,7 +57,14 @@ protected:
     std::ostringstream rows;
     rows << "0,0,0," << topMm() + 2 << "\n0.1,0,0," << topMm() - 5 << "\n0.1505,0,0," << topMm() + 1
          << "\n";
-    const auto path = writePath(folder_.path(), rows.str().c_str());
+    return pressAlong(rows.str(), extra, out);
+  }
+
+  // @param rows  of a path
+  [[nodiscard]] Finished pressAlong(
+    const std::string& rows, const std::string& extra, const std::string& out)
+  {
+    const auto path = writePath(folder_.path(), rows.c_str());
     return palp("run " + block() + " --path " + path.string() + " --out " +
       (folder_.path() / out).string() + " " + extra);
   }
