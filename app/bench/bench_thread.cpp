@@ -28,8 +28,7 @@ public:
     return benchDevice();
   }
 
-  [[nodiscard]] std::optional<ToolPose> exchange(
-    const Eigen::Vector3d&, double dt) noexcept override
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench&, double dt) noexcept override
   {
     return benchPose(time_ += dt);
   }

@@ -80,8 +80,9 @@ Scene benchTissue(bool nodules)
   return scene;
 }
 
-ServoTick::ServoTick(std::shared_ptr<const Surface> surface, Scene scene)
-  : chain_(benchDevice(), { .fastest = 1e6 })
+ServoTick::ServoTick(
+  std::shared_ptr<const Surface> surface, Scene scene, const DeviceLimits& device)
+  : chain_(device, { .fastest = 1e6 })
   , scene_(std::move(scene))
 {
   scene_.surface = std::move(surface);

@@ -44,7 +44,8 @@ constexpr double kBenchDepth = units::fromMillimeters(5.0);
 class ServoTick
 {
 public:
-  explicit ServoTick(std::shared_ptr<const Surface> surface, Scene scene = {});
+  explicit ServoTick(std::shared_ptr<const Surface> surface, Scene scene = {},
+    const DeviceLimits& device = benchDevice());
   Sample operator()(const ToolPose& pose);
 
 private:

@@ -30,12 +30,12 @@ DeviceLimits EmulatedBoard::limits() const
   return { .model = "emulated board", .rendersForce = true, .maxForce = 8.0, .damping = 2.0 };
 }
 
-IoCode EmulatedBoard::tick(const Eigen::Vector3d& force, double, DriverSample& sample) noexcept
+IoCode EmulatedBoard::tick(const Wrench& wrench, double, DriverSample& sample) noexcept
 {
   const Clock::time_point begin = Clock::now();
   sleepUntil(begin + half_);
   const Clock::time_point now = Clock::now();
-  takeForce(force.z(), now);
+  takeForce(wrench.force.z(), now);
   sampleHandle(now);
   const bool started = now - opened_ > kWarmUp; // a force begins in free space
   sample = { .position = Eigen::Vector3d(0.0, 0.0, started ? -kDepths[deep_ ? 1 : 0] : 0.1_mm) };

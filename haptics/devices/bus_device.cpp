@@ -41,7 +41,7 @@ BusDevice::BusDevice(Open open, const DevicePlacement& placement)
   const auto deadline = Clock::now() + kPatience;
   while (!there_ && losses_ == 0 && Clock::now() < deadline)
   {
-    (void)exchange(Eigen::Vector3d::Zero(), seconds(kPeriod));
+    (void)exchange(Wrench{}, seconds(kPeriod));
     std::this_thread::sleep_for(there_ ? 0ms : kPeriod);
   }
   if (!there_)
@@ -88,7 +88,7 @@ bool BusDevice::place(const DevicePlacement& placement)
   return true;
 }
 
-std::optional<ToolPose> BusDevice::exchange(const Eigen::Vector3d& force, double) noexcept
+std::optional<ToolPose> BusDevice::exchange(const Wrench& wrench, double) noexcept
 {
   const int losses = losses_.load();
   const bool wasLost = std::exchange(toldLosses_, losses) != losses;
@@ -107,7 +107,7 @@ std::optional<ToolPose> BusDevice::exchange(const Eigen::Vector3d& force, double
     return there_ && owner_ != Owner::Lost ? std::optional(pose()) : std::nullopt;
   }
   const Clock::time_point asked = asked_;
-  const IoCode code = transfer(force, begin, heard_);
+  const IoCode code = transfer(wrench, begin, heard_);
   if (code == IoCode::Ok)
   {
     const Clock::time_point now = Clock::now();
@@ -118,7 +118,7 @@ std::optional<ToolPose> BusDevice::exchange(const Eigen::Vector3d& force, double
     when_ = now;
     answered_ = false;
     there_ = true;
-    index(force.isZero(0.0));
+    index(wrench.force.isZero(0.0));
   }
   releaseDriver(code);
   status_.homed = heard_.homed;
@@ -131,7 +131,7 @@ std::optional<ToolPose> BusDevice::exchange(const Eigen::Vector3d& force, double
   return there_ && code != IoCode::Gone ? std::optional(pose()) : std::nullopt;
 }
 
-void BusDevice::answer(const Eigen::Vector3d& force) noexcept
+void BusDevice::answer(const Wrench& wrench) noexcept
 {
   if (!there_ || !takeDriver())
   {
@@ -140,26 +140,26 @@ void BusDevice::answer(const Eigen::Vector3d& force) noexcept
   DriverSample unused = heard_;
   const Clock::time_point begin = Clock::now();
   renewed_.store(begin, std::memory_order_relaxed);
-  releaseDriver(transfer(force, begin, unused));
+  releaseDriver(transfer(wrench, begin, unused));
 }
 
 // a board looks where it is when a command comes, and that command carries the force: so from one
 // to the next is the time in which a pose is answered, however long the ways are
 IoCode BusDevice::transfer(
-  const Eigen::Vector3d& force, Clock::time_point begin, DriverSample& sample) noexcept
+  const Wrench& wrench, Clock::time_point begin, DriverSample& sample) noexcept
 {
   if (!std::exchange(answered_, true))
   {
     status_.delay = seconds(begin - asked_);
   }
-  return tick(rotation_.transpose() * force, sample);
+  return tick(rotation_.transpose() * wrench, sample);
 }
 
 // a driver counts in this time what its motors took up, or how far its tool went
-IoCode BusDevice::tick(const Eigen::Vector3d& force, DriverSample& sample) noexcept
+IoCode BusDevice::tick(const Wrench& wrench, DriverSample& sample) noexcept
 {
   const Clock::time_point now = Clock::now();
-  return driver_->tick(force, seconds(now - std::exchange(ticked_, now)), sample);
+  return driver_->tick(wrench, seconds(now - std::exchange(ticked_, now)), sample);
 }
 
 bool BusDevice::takeDriver() noexcept
@@ -225,7 +225,7 @@ void BusDevice::watch(const std::stop_token& stop) noexcept
     else if (Clock::now() - renewed_.load(std::memory_order_relaxed) > kCommandAge && takeDriver())
     {
       DriverSample unused;
-      releaseDriver(tick(Eigen::Vector3d::Zero(), unused));
+      releaseDriver(tick(Wrench{}, unused));
     }
   }
 }
@@ -236,7 +236,7 @@ void BusDevice::endForce() noexcept
   DriverSample unused;
   for (int i = 0; driver_ && i < kLastWords; ++i)
   {
-    if (tick(Eigen::Vector3d::Zero(), unused) == IoCode::Gone)
+    if (tick(Wrench{}, unused) == IoCode::Gone)
     {
       std::this_thread::sleep_for(kPeriod);
     }

@@ -43,9 +43,8 @@ public:
 
   [[nodiscard]] DeviceLimits limits() const override;
   [[nodiscard]] bool place(const DevicePlacement& placement) override;
-  [[nodiscard]] std::optional<ToolPose> exchange(
-    const Eigen::Vector3d& force, double dt) noexcept override;
-  void answer(const Eigen::Vector3d& force) noexcept override;
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench& wrench, double dt) noexcept override;
+  void answer(const Wrench& wrench) noexcept override;
   void hold(bool isHeld) noexcept override
   {
     heldByUser_ = isHeld;
@@ -71,8 +70,8 @@ private:
   };
 
   [[nodiscard]] IoCode transfer(
-    const Eigen::Vector3d& force, Clock::time_point begin, DriverSample& sample) noexcept;
-  [[nodiscard]] IoCode tick(const Eigen::Vector3d& force, DriverSample& sample) noexcept;
+    const Wrench& wrench, Clock::time_point begin, DriverSample& sample) noexcept;
+  [[nodiscard]] IoCode tick(const Wrench& wrench, DriverSample& sample) noexcept;
   [[nodiscard]] bool takeDriver() noexcept;
   void releaseDriver(IoCode code) noexcept;
   void turn(double dt) noexcept;

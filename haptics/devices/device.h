@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/pose.h"
+#include "haptics/wrench.h"
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -25,6 +26,8 @@ struct DeviceLimits
   bool rendersForce = false;    ///< a hand can feel it
   bool needsHoming = false;     ///< its positions mean nothing until status().homed
   double maxForce = 0.0;        ///< [N]
+  double maxTorque = 0.0;       ///< [N m]; 0: it renders none
+  double maxTurning = 0.0;      ///< angular stiffness that it may render [N m/rad]
   double damping = 0.0;         ///< b of the mechanism [N s/m], what makes a sampled wall stable
   double friction = 0.0;        ///< f_c of the mechanism, Coulomb's [N]
   double mass = 0.0;            ///< of the mechanism, as felt at its end [kg]; 0: unknown
@@ -89,18 +92,18 @@ public:
     return false;
   }
 
-  /// One tick: takes the force, gives the pose at its end. May wait for a bus.
+  /// One tick: takes what to render, gives the pose at its end. May wait for a bus.
   ///
-  /// @param force  on the hand [N], finite; zero when off
-  /// @param dt     since the last tick [s]
-  /// @return       nothing when the device is gone
-  /// @realtime     no allocation, no lock, no exception; a wait ends within a few milliseconds
+  /// @param wrench  on the hand, finite; zero when off
+  /// @param dt      since the last tick [s]
+  /// @return        nothing when the device is gone
+  /// @realtime      no allocation, no lock, no exception; a wait ends within a few milliseconds
   [[nodiscard]] virtual std::optional<ToolPose> exchange(
-    const Eigen::Vector3d& force, double dt) noexcept = 0;
+    const Wrench& wrench, double dt) noexcept = 0;
 
-  /// Sends the force that answers the last pose at once, where the next exchange is too far off.
+  /// Sends what answers the last pose at once, where the next exchange is too far off.
   /// @realtime  as exchange
-  virtual void answer(const Eigen::Vector3d&) noexcept
+  virtual void answer(const Wrench&) noexcept
   {
   }
 

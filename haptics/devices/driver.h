@@ -33,13 +33,14 @@ public:
 
   [[nodiscard]] virtual DeviceLimits limits() const = 0;
 
-  /// Sends a force, takes the newest that the device has said.
+  /// Sends what to render, takes the newest that the device has said.
   ///
-  /// @param force   [N]; no force reaches the motors before the device is homed
+  /// @param wrench  of which a driver takes what its arm can render, most the force alone; nothing
+  ///                reaches the motors before the device is homed
   /// @param dt      since the last tick [s]
   /// @param sample  unchanged unless Ok is returned, but for what was sent
   [[nodiscard]] virtual IoCode tick(
-    const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept = 0;
+    const Wrench& wrench, double dt, DriverSample& sample) noexcept = 0;
 };
 
 } // namespace palp

@@ -1,5 +1,7 @@
 #include "haptics/servo/passivity.h"
 
+#include <Eigen/Geometry>
+
 namespace palp
 {
 namespace
@@ -12,10 +14,10 @@ constexpr double kLargestCredit = 1e-4; // [J]
 
 } // namespace
 
-// mean force over the last tick: each acts for as long as its own tick, a delay after its pose
-Eigen::Vector3d PassivityController::acting(double dt, double delay) const noexcept
+// mean over the last tick: each acts for as long as its own tick, a delay after its pose
+Wrench PassivityController::acting(double dt, double delay) const noexcept
 {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Wrench sum;
   double age = 0.0; // of the end of a force's own tick [s]
   for (std::size_t i = 0; i < kForces; ++i)
   {
@@ -25,7 +27,8 @@ Eigen::Vector3d PassivityController::acting(double dt, double delay) const noexc
     const double overlap = std::min(begin, dt) - std::max(end, 0.0);
     if (overlap > 0.0)
     {
-      sum += overlap / dt * forces_[slot];
+      sum.force += overlap / dt * wrenches_[slot].force;
+      sum.torque += overlap / dt * wrenches_[slot].torque;
     }
     if (end >= dt)
     {
@@ -40,15 +43,17 @@ Eigen::Vector3d PassivityController::damp(const PortTick& tick) noexcept
 {
   lengths_[newest_] = tick.dt;
   const Eigen::Vector3d travel = tick.position - position_;
-  const double taken = -acting(tick.dt, tick.delay).dot(travel);
+  const Wrench acted = acting(tick.dt, tick.delay);
+  const double taken = -acted.force.dot(travel) - acted.torque.dot(axis_.cross(tick.axis));
   const double lost =
     mechanism_.damping * travel.squaredNorm() / tick.dt + mechanism_.friction * travel.norm();
   energy_ += taken;
   balance_ =
     std::clamp(balance_ + taken + lost, tick.stored - kLargestDebt, tick.stored + kLargestCredit);
   position_ = tick.position;
+  axis_ = tick.axis;
   newest_ = (newest_ + 1) % kForces;
-  forces_[newest_].setZero();
+  wrenches_[newest_] = {};
   lengths_[newest_] = 0.0;
 
   const double missing = tick.stored - balance_;
@@ -60,13 +65,14 @@ Eigen::Vector3d PassivityController::damp(const PortTick& tick) noexcept
   return -std::min(tick.share * maxDamping_, damping) * tick.velocity;
 }
 
-void PassivityController::restart(const Eigen::Vector3d& position) noexcept
+void PassivityController::restart(const ToolPose& pose) noexcept
 {
   energy_ = 0.0;
   balance_ = 0.0;
-  forces_.fill(Eigen::Vector3d::Zero());
+  wrenches_.fill({});
   lengths_.fill(0.0);
-  position_ = position;
+  position_ = pose.apex;
+  axis_ = pose.axis;
 }
 
 } // namespace palp

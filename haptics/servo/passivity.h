@@ -1,5 +1,8 @@
 #pragma once
 
+#include "haptics/pose.h"
+#include "haptics/wrench.h"
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -20,6 +23,7 @@ struct PortTick
 {
   Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< of the device now [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero(); ///< [m/s]
+  Eigen::Vector3d axis = -Eigen::Vector3d::UnitZ();   ///< of the tool, unit
   double dt = 0.001;                                  ///< since the last tick [s], above 0
   double delay = 0.0;  ///< of a force, behind the pose it answers [s]
   double stored = 0.0; ///< in the rendered springs, which the hand may have back [J]
@@ -29,10 +33,10 @@ struct PortTick
 /// Time-domain passivity control: observes the energy that the port has taken from the hand, and
 /// damps the hand while less is left than the rendered springs store.
 ///
-/// Passivity observer: each force that really went to the device, times the motion on which it
-/// acted: that of a delay later, split between ticks. For a force that is held over a tick this is
-/// the energy at the port, also between the samples. Passivity controller: a variable damper that
-/// dissipates what is missing, after what the mechanism dissipates by itself.
+/// Passivity observer: each wrench that really went to the device, times the motion and turn on
+/// which it acted: those of a delay later, split between ticks. For a force that is held over a
+/// tick this is the energy at the port, also between the samples. Passivity controller: a variable
+/// damper that dissipates what is missing, after what the mechanism dissipates by itself.
 ///
 /// @source  Hannaford, Ryu, "Time-domain passivity control of haptic interfaces", IEEE TRA 18(1),
 ///          2002; stored energy as reference: Ryu, Preusche, Hannaford, Hirzinger, "Time domain
@@ -56,16 +60,16 @@ public:
   /// @realtime        no allocation, no lock, no exception
   [[nodiscard]] Eigen::Vector3d damp(const PortTick& tick) noexcept;
 
-  /// The force that answers the pose of this tick, after every limit [N].
-  void sent(const Eigen::Vector3d& force) noexcept
+  /// What answers the pose of this tick, after every limit.
+  void sent(const Wrench& wrench) noexcept
   {
-    forces_[newest_] = force;
+    wrenches_[newest_] = wrench;
   }
 
   /// What the motors were given of the newest force, by a driver with limits of its own [N].
   void given(const Eigen::Vector3d& force) noexcept
   {
-    sent(force);
+    wrenches_[newest_].force = force;
   }
 
   /// Credit of this contact cannot pay for activity in the next; a debt stays.
@@ -75,7 +79,7 @@ public:
   }
 
   /// Forgets all, at the start of a device or after a gap in its poses.
-  void restart(const Eigen::Vector3d& position) noexcept;
+  void restart(const ToolPose& pose) noexcept;
 
   [[nodiscard]] double maxDamping() const noexcept
   {
@@ -93,7 +97,7 @@ private:
   static constexpr double kTick = 1e-3;       // in which one step of a fine one is noise [s]
   static constexpr std::size_t kForces = 128; // 32 ms at 4 kHz
 
-  [[nodiscard]] Eigen::Vector3d acting(double dt, double delay) const noexcept;
+  [[nodiscard]] Wrench acting(double dt, double delay) const noexcept;
 
   double maxDamping_;
   double atRest_; // [m/s]
@@ -101,7 +105,8 @@ private:
   double energy_ = 0.0;
   double balance_ = 0.0; // the same with what the mechanism dissipates, between its bounds [J]
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
-  std::array<Eigen::Vector3d, kForces> forces_{};
+  Eigen::Vector3d axis_ = -Eigen::Vector3d::UnitZ();
+  std::array<Wrench, kForces> wrenches_{};
   std::array<double, kForces> lengths_{}; // from the pose of each force to the next [s]
   std::size_t newest_ = 0;
 };

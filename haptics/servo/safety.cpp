@@ -70,6 +70,7 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
     refuse("safety chain", "softSlewRate", settings.softSlewRate, "must be below slewRate");
   }
   for (const auto& [name, value] : { Named{ "maxForce", device.maxForce },
+         { "maxTorque", device.maxTorque }, { "maxTurning", device.maxTurning },
          { "damping", device.damping }, { "friction", device.friction }, { "mass", device.mass },
          { "handDamping", device.handDamping }, { "quantum", device.quantum },
          { "delay", device.delay }, { "velocityDelay", device.velocityDelay },
@@ -90,12 +91,14 @@ void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene,
   const Eigen::Vector3d wall = workspaceForce(last_);
   const Eigen::Vector3d damping = passivity_.damp({ .position = last_.apex,
     .velocity = last_.velocity,
+    .axis = last_.axis,
     .dt = elapsed_,
     .delay = measured_ ? newestDelay_ : device_.delay,
     .stored = forceOn() ? share_ * stored_ : 0.0,
     .share = guard_.stiffnessShare() });
   watchSwings(sample);
   sample.force.setZero();
+  sample.torque.setZero();
   if (forceOn())
   {
     Eigen::Vector3d force = wanted + damping;
@@ -117,13 +120,17 @@ void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene,
     fade();
     sample.force = share_ * shaped_ + watchdogGain_ * fading_;
     ramp(sample.contact.touching());
+    if (device_.maxTorque > 0.0 && tissue != nullptr && sample.contact.touching())
+    {
+      sample.torque = turning(sample, scene, *tissue);
+    }
   }
   else
   {
     raise(Flag::Disarmed);
   }
   sent_ = sample.force;
-  passivity_.sent(sent_);
+  passivity_.sent({ sent_, sample.torque });
   sample.flags |= flags_ | latched_;
   sample.state = state_;
 }

@@ -64,12 +64,13 @@ public:
   [[nodiscard]] std::optional<ToolPose> admit(const std::optional<ToolPose>& pose,
     const DeviceStatus& status, const SafetyOrders& orders, double dt) noexcept;
 
-  /// Second half of a tick: sets force, proxyDepth, flags and state of a sample.
+  /// Second half of a tick: sets force, torque, proxyDepth, flags and state of a sample.
   ///
   /// @param sample  pose and contact of this tick
   /// @param law     at this contact
   /// @param scene   for damping, largest force and version
-  /// @param tissue  whose law this is, which may push the tool aside; null: it does not
+  /// @param tissue  whose law this is, which may push the tool aside and turn it; null: it does
+  ///                not
   /// @param memory  of it, to settle where the tool is felt to be; null: none
   /// @realtime      no allocation, no lock, no exception
   void limit(Sample& sample, const DepthLaw& law, const Scene& scene,
@@ -108,6 +109,8 @@ private:
   [[nodiscard]] double highestNormalForce(const Scene& scene) const noexcept;
   [[nodiscard]] Eigen::Vector3d push(
     const Contact& contact, const Rendered& felt, const Scene& scene) noexcept;
+  [[nodiscard]] Eigen::Vector3d turning(
+    const Sample& sample, const Scene& scene, const TissueAt& tissue) const noexcept;
   [[nodiscard]] double renderedDamping(double wanted) const noexcept;
   [[nodiscard]] Eigen::Vector3d workspaceForce(const ToolPose& pose) noexcept;
   void watchSwings(const Sample& sample) noexcept;

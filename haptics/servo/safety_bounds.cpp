@@ -2,6 +2,7 @@
 // safety.cpp.
 
 #include "haptics/servo/safety.h"
+#include "haptics/servo/torque.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +58,27 @@ double SafetyChain::stiffnessLimit(double damping) const noexcept
   const double stable = std::max(without, stableStiffness(loop));
   return std::min({ settings_.stiffnessFraction * stable, smoothStiffness(device_),
     guard_.stiffest(passivity_.maxDamping()) });
+}
+
+// as much of the tissue's torque as is sent of its force, and no stiffer than the wrist bears
+Eigen::Vector3d SafetyChain::turning(
+  const Sample& sample, const Scene& scene, const TissueAt& tissue) const noexcept
+{
+  const Response felt = tissue(sample.proxyDepth);
+  const double whole = sample.contact.slope * felt.force;
+  const double sent = sample.force.dot(sample.contact.normal);
+  if (!(sent > 0.0 && whole > 0.0))
+  {
+    return Eigen::Vector3d::Zero();
+  }
+  const double reach = baseRadius(scene.law.tip());
+  const double stiffness = reach * (reach * felt.stiffness + felt.force);
+  const double part = std::min(1.0, sent / whole) * std::min(1.0, device_.maxTurning / stiffness);
+  const Eigen::Vector3d torque = part * torqueAt(scene, sample, tissue);
+  const double size = torque.norm();
+  return size <= device_.maxTorque ? torque
+    : std::isfinite(size)          ? Eigen::Vector3d(device_.maxTorque / size * torque)
+                                   : Eigen::Vector3d::Zero();
 }
 
 Eigen::Vector3d SafetyChain::workspaceForce(const ToolPose& pose) noexcept

@@ -70,7 +70,7 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
   if (isNew)
   {
     state_ = state_ == DeviceState::Closed ? DeviceState::Opening : state_;
-    passivity_.restart(pose->apex);
+    passivity_.restart(*pose);
   }
   if (isNew || plausible(*pose, status.age))
   {
@@ -134,7 +134,7 @@ bool SafetyChain::plausible(const ToolPose& pose, double age) noexcept
     return false;
   }
   fault(Flag::Jump);
-  passivity_.restart(pose.apex);
+  passivity_.restart(pose);
   rebase_ = true;
   return true;
 }

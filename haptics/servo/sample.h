@@ -70,6 +70,7 @@ struct Sample
   double localDepth = 0.0; ///< of the contact, without what the body gives way as a whole [m]
   double proxyDepth = 0.0; ///< depth at which the law gives the rendered force [m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();    ///< sent to the device [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();   ///< likewise, about the apex [N m]
   Eigen::Vector3d friction = Eigen::Vector3d::Zero(); ///< on the tool, before limits [N]
   double surfaceDepth = 0.0; ///< of relaxing tissue at the tool, also of what is left [m]
   std::uint32_t flags = 0;   ///< of Flag

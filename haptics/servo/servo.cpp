@@ -122,8 +122,7 @@ Sample Servo::computeSample(
 
 // The force of this tick is not held back until the next one: it goes out now, or the next exchange
 // begins at once. What is late is skipped on the same grid, never made up for by a burst.
-Servo::Clock::time_point Servo::nextAfter(
-  Clock::time_point due, const Eigen::Vector3d& force) noexcept
+Servo::Clock::time_point Servo::nextAfter(Clock::time_point due, const Wrench& wrench) noexcept
 {
   using std::chrono::duration_cast;
   const auto inBus =
@@ -142,7 +141,7 @@ Servo::Clock::time_point Servo::nextAfter(
       lost_ %= pace;
       return next;
     }
-    device_.answer(force);
+    device_.answer(wrench);
   }
   for (; next <= Clock::now(); next += options_.period)
   {
@@ -159,7 +158,7 @@ void Servo::run(const std::stop_token& stop) noexcept
   const Clock::time_point start = Clock::now();
   Clock::time_point due = start;
   Clock::time_point last = start - options_.period;
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Wrench wrench;
   while (!stop.stop_requested())
   {
     waitUntil(due);
@@ -167,7 +166,7 @@ void Servo::run(const std::stop_token& stop) noexcept
     timing_.lateness.record(awake - due);
 
     const double elapsed = seconds(awake - last);
-    const std::optional<ToolPose> pose = device_.exchange(force, elapsed);
+    const std::optional<ToolPose> pose = device_.exchange(wrench, elapsed);
     last = awake;
     if (const double delay = device_.status().delay; delay > 0.0)
     {
@@ -177,7 +176,7 @@ void Servo::run(const std::stop_token& stop) noexcept
     const Clock::time_point begin = Clock::now();
     Sample sample = computeSample(scene_.read(), pose, elapsed);
     sample.time = seconds(awake - options_.epoch.value_or(start));
-    force = sample.force;
+    wrench = { sample.force, sample.torque };
     timing_.step.record(Clock::now() - begin);
 
     newest_.publish(sample); // for the picture, which wants the present
@@ -188,9 +187,9 @@ void Servo::run(const std::stop_token& stop) noexcept
     timing_.elapsed.store(sample.time, std::memory_order_relaxed);
     timing_.ticks.fetch_add(1, std::memory_order_relaxed);
 
-    due = nextAfter(due, force);
+    due = nextAfter(due, wrench);
   }
-  (void)device_.exchange(Eigen::Vector3d::Zero(), seconds(options_.period));
+  (void)device_.exchange(Wrench{}, seconds(options_.period));
 }
 
 } // namespace palp

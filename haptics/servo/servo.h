@@ -110,8 +110,7 @@ private:
   [[nodiscard]] Sample computeSample(
     const Scene& scene, const std::optional<ToolPose>& pose, double elapsed) noexcept;
   void waitUntil(Clock::time_point due) noexcept;
-  [[nodiscard]] Clock::time_point nextAfter(
-    Clock::time_point due, const Eigen::Vector3d& force) noexcept;
+  [[nodiscard]] Clock::time_point nextAfter(Clock::time_point due, const Wrench& wrench) noexcept;
   [[nodiscard]] std::string schedule(const DeviceLimits& device);
 
   Device& device_;

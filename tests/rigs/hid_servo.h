@@ -131,11 +131,11 @@ public:
   {
     return device_->status();
   }
-  [[nodiscard]] std::optional<ToolPose> exchange(const Vector3d& force, double dt) noexcept override
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench& wrench, double dt) noexcept override
   {
-    handed += force.isZero(0.0) ? 0 : 1;
-    const auto pose = device_->exchange(force, dt);
-    if (!force.isZero(0.0))
+    handed += wrench.isZero() ? 0 : 1;
+    const auto pose = device_->exchange(wrench, dt);
+    if (!wrench.isZero())
     {
       before = -1;
     }

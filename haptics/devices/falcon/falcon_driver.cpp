@@ -224,17 +224,17 @@ DeviceLimits FalconDriver::limits() const
     .facing = kFacing };
 }
 
-IoCode FalconDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sample) noexcept
+IoCode FalconDriver::tick(const Wrench& wrench, double, DriverSample& sample) noexcept
 {
   FalconCommand command{ .homing = true, .lights = homed_ ? kGreen : counted_ ? kBlue : kRed };
-  const auto torques = homed_ ? falconTorques(position_, force) : std::nullopt;
+  const auto torques = homed_ ? falconTorques(position_, wrench.force) : std::nullopt;
   Eigen::Vector3d sent = Eigen::Vector3d::Zero();
   if (torques)
   {
     const Eigen::Vector3d counts = -kCountsPerTorque * *torques;
     const double largest = counts.cwiseAbs().maxCoeff();
     const double fraction = largest > kLargestCount ? kLargestCount / largest : 1.0;
-    sent = fraction * force;
+    sent = fraction * wrench.force;
     for (std::size_t i = 0; i < 3; ++i)
     {
       command.torque[i] = nearestInt<std::int16_t>(fraction * counts[static_cast<int>(i)]);

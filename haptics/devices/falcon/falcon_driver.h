@@ -23,7 +23,7 @@ public:
 
   [[nodiscard]] DeviceLimits limits() const override;
   [[nodiscard]] IoCode tick(
-    const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept override;
+    const Wrench& wrench, double dt, DriverSample& sample) noexcept override;
 
 private:
   [[nodiscard]] bool request(std::uint8_t what, std::uint16_t value) noexcept;

@@ -91,7 +91,7 @@ DeviceLimits GamepadDriver::limits() const
   return { .model = "game pad" };
 }
 
-IoCode GamepadDriver::tick(const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept
+IoCode GamepadDriver::tick(const Wrench& wrench, double dt, DriverSample& sample) noexcept
 {
   std::array<input_event, 64> events; // NOLINT(cppcoreguidelines-pro-type-member-init): read into
   const ssize_t size = read(node_.get(), events.data(), sizeof(events));
@@ -104,7 +104,7 @@ IoCode GamepadDriver::tick(const Eigen::Vector3d& force, double dt, DriverSample
   {
     take(events[i]);
   }
-  rumble(force.allFinite() ? force.norm() : 0.0, dt);
+  rumble(wrench.force.allFinite() ? wrench.force.norm() : 0.0, dt);
   SpaceMouseState now = state();
   sample = motion_.move(now, true, dt); // a stick that is held tells nothing anew
   return IoCode::Ok;

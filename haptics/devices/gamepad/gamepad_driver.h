@@ -47,7 +47,7 @@ public:
 
   [[nodiscard]] DeviceLimits limits() const override;
   [[nodiscard]] IoCode tick(
-    const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept override;
+    const Wrench& wrench, double dt, DriverSample& sample) noexcept override;
 
 private:
   static constexpr std::size_t kAxes = ABS_HAT0Y + 1;

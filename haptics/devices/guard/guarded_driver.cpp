@@ -80,11 +80,10 @@ double GuardedDriver::gain(double dt) noexcept
   return gain_;
 }
 
-IoCode GuardedDriver::tick(const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept
+IoCode GuardedDriver::tick(const Wrench& wrench, double dt, DriverSample& sample) noexcept
 {
   const double share = gain(dt);
-  const IoCode code = driver_->tick(
-    share > 0.0 ? Eigen::Vector3d(share * force) : Eigen::Vector3d::Zero(), dt, sample);
+  const IoCode code = driver_->tick(share > 0.0 ? share * wrench : Wrench{}, dt, sample);
   sample.stopped = sample.stopped || (code == IoCode::Ok && stoppedFor_ > 0.0);
   return code;
 }

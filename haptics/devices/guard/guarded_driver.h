@@ -47,7 +47,7 @@ public:
     return driver_->limits();
   }
   [[nodiscard]] IoCode tick(
-    const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept override;
+    const Wrench& wrench, double dt, DriverSample& sample) noexcept override;
 
 private:
   [[nodiscard]] double gain(double dt) noexcept;

@@ -52,11 +52,10 @@ public:
       .workspaceRadius = reach_ };
   }
 
-  [[nodiscard]] IoCode tick(
-    const Eigen::Vector3d& force, double, DriverSample& sample) noexcept override
+  [[nodiscard]] IoCode tick(const Wrench& wrench, double, DriverSample& sample) noexcept override
   {
-    const bool pushes = homed_ && force.allFinite();
-    const Eigen::Vector3d sent = pushes ? force : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    const bool pushes = homed_ && wrench.force.allFinite();
+    const Eigen::Vector3d sent = pushes ? wrench.force : Eigen::Vector3d(Eigen::Vector3d::Zero());
     sample.sent = sent;
     const bool replied = link_.exchange(sent, 2ms);
     if (link_.gone())

@@ -70,7 +70,7 @@ DeviceLimits SpaceMouseDriver::limits() const
   return { .model = "SpaceMouse" };
 }
 
-IoCode SpaceMouseDriver::tick(const Eigen::Vector3d&, double dt, DriverSample& sample) noexcept
+IoCode SpaceMouseDriver::tick(const Wrench&, double dt, DriverSample& sample) noexcept
 {
   bool heard = false;
   std::size_t gone = 0;
@@ -115,7 +115,7 @@ DeviceLimits WoodenDriver::limits() const
     .facing = kFacesUser };
 }
 
-IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept
+IoCode WoodenDriver::tick(const Wrench& wrench, double dt, DriverSample& sample) noexcept
 {
   Report command{};
   const MutableBytes payload = MutableBytes(command).first(reportSize_);
@@ -128,9 +128,10 @@ IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double dt, DriverSample&
   }
   else
   {
-    auto motors = homed_ ? motorCurrents(arm_, angles_, force) : MotorCurrents{};
+    auto motors = homed_ ? motorCurrents(arm_, angles_, wrench.force) : MotorCurrents{};
     const double share = motors.share * heat_.take(motors.currents, dt);
-    sent = share > 0.0 ? Eigen::Vector3d(share * force) : sent; // its share of NaN is none, too
+    sent =
+      share > 0.0 ? Eigen::Vector3d(share * wrench.force) : sent; // its share of NaN is none, too
     encodeWooden(motors.currents, payload);
   }
   sample.sent = sent;
@@ -184,7 +185,7 @@ DeviceLimits Phd1Driver::limits() const
     .unproven = true };
 }
 
-IoCode Phd1Driver::tick(const Eigen::Vector3d& force, double, DriverSample& sample) noexcept
+IoCode Phd1Driver::tick(const Wrench& wrench, double, DriverSample& sample) noexcept
 {
   const bool ready = state_.homed && !state_.stopped;
   const bool homing = homes_ && heard_ && !state_.homed && !state_.stopped;
@@ -194,7 +195,7 @@ IoCode Phd1Driver::tick(const Eigen::Vector3d& force, double, DriverSample& samp
     .sequence = sequence_++ };
   if (ready)
   {
-    command.force = force;
+    command.force = wrench.force;
   }
   const auto told = encode(command);
   const Eigen::Vector3d sent = decodePhd1Command(told)->force; // as it stands on the wire

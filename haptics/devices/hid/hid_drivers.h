@@ -26,7 +26,7 @@ public:
 
   [[nodiscard]] DeviceLimits limits() const override;
   [[nodiscard]] IoCode tick(
-    const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept override;
+    const Wrench& wrench, double dt, DriverSample& sample) noexcept override;
 
 private:
   std::vector<std::unique_ptr<Transport>> transports_;
@@ -45,7 +45,7 @@ public:
 
   [[nodiscard]] DeviceLimits limits() const override;
   [[nodiscard]] IoCode tick(
-    const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept override;
+    const Wrench& wrench, double dt, DriverSample& sample) noexcept override;
 
 private:
   std::unique_ptr<Transport> transport_;
@@ -76,7 +76,7 @@ public:
 
   [[nodiscard]] DeviceLimits limits() const override;
   [[nodiscard]] IoCode tick(
-    const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept override;
+    const Wrench& wrench, double dt, DriverSample& sample) noexcept override;
 
 private:
   std::unique_ptr<Transport> transport_;

@@ -27,10 +27,9 @@ DeviceLimits IdentifiedDriver::limits() const
   return limits;
 }
 
-IoCode IdentifiedDriver::tick(
-  const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept
+IoCode IdentifiedDriver::tick(const Wrench& wrench, double dt, DriverSample& sample) noexcept
 {
-  const IoCode code = driver_->tick(force / arm_.scale, dt, sample);
+  const IoCode code = driver_->tick({ wrench.force / arm_.scale, wrench.torque }, dt, sample);
   if (sample.sent)
   {
     *sample.sent *= arm_.scale;

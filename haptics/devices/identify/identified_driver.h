@@ -16,7 +16,7 @@ public:
 
   [[nodiscard]] DeviceLimits limits() const override;
   [[nodiscard]] IoCode tick(
-    const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept override;
+    const Wrench& wrench, double dt, DriverSample& sample) noexcept override;
 
 private:
   std::unique_ptr<Driver> driver_;

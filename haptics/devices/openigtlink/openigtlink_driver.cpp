@@ -87,15 +87,14 @@ DeviceLimits OpenIgtLinkDriver::limits() const
   return { .model = "OpenIGTLink tracker", .needsHoming = true };
 }
 
-IoCode OpenIgtLinkDriver::tick(
-  const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept
+IoCode OpenIgtLinkDriver::tick(const Wrench& wrench, double dt, DriverSample& sample) noexcept
 {
   std::optional<TrackedPose> newest;
   accept(dt);
   if (peer_)
   {
     receive(newest);
-    send(force, dt);
+    send(wrench.force, dt);
   }
   if (newest)
   {

@@ -38,9 +38,9 @@ DeviceStatus LaggingTool::status() const noexcept
   return device_->status();
 }
 
-std::optional<ToolPose> LaggingTool::exchange(const Eigen::Vector3d& force, double dt) noexcept
+std::optional<ToolPose> LaggingTool::exchange(const Wrench& wrench, double dt) noexcept
 {
-  std::optional<ToolPose> pose = device_->exchange(force, dt);
+  std::optional<ToolPose> pose = device_->exchange(wrench, dt);
   const auto& [scene, reference] = world_.read();
   if (!pose || scene.surface == nullptr)
   {

@@ -36,8 +36,7 @@ public:
   {
     return device_->place(placement);
   }
-  [[nodiscard]] std::optional<ToolPose> exchange(
-    const Eigen::Vector3d& force, double dt) noexcept override;
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench& wrench, double dt) noexcept override;
   [[nodiscard]] GuidedTool* guided() noexcept override;
   [[nodiscard]] DeviceStatus status() const noexcept override;
 

@@ -24,8 +24,7 @@ public:
   {
     return { .model = "mouse" };
   }
-  [[nodiscard]] std::optional<ToolPose> exchange(
-    const Eigen::Vector3d&, double dt) noexcept override
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench&, double dt) noexcept override
   {
     return tool_.advance(dt);
   }

@@ -18,7 +18,7 @@ DeviceLimits ScriptedDevice::limits() const
   return { .model = "scripted path" };
 }
 
-std::optional<ToolPose> ScriptedDevice::exchange(const Eigen::Vector3d&, double dt) noexcept
+std::optional<ToolPose> ScriptedDevice::exchange(const Wrench&, double dt) noexcept
 {
   bool jumps = head_.obey(order_.read());
   if (lifted_ > 0.0)

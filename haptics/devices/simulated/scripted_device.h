@@ -48,8 +48,7 @@ public:
   [[nodiscard]] DeviceLimits limits() const override;
 
   /// The velocity is that of the tool, as fast as it is played; zero where it pauses.
-  [[nodiscard]] std::optional<ToolPose> exchange(
-    const Eigen::Vector3d& force, double dt) noexcept override;
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench& wrench, double dt) noexcept override;
 
 private:
   ScriptedPath path_;

@@ -40,17 +40,17 @@ DeviceLimits SimulatedHand::limits() const
     .damping = mechanics_.damping };
 }
 
-std::optional<ToolPose> SimulatedHand::exchange(const Eigen::Vector3d& force, double dt) noexcept
+std::optional<ToolPose> SimulatedHand::exchange(const Wrench& wrench, double dt) noexcept
 {
   const Scene& scene = tool_.scene();
   OrganTouch none;
   const bool isFree = scene.surface == nullptr || !touchOrgan(scene, pose_, none).touching();
   const ToolPose& target = tool_.advance(std::isfinite(dt) ? dt : 0.0, isFree);
-  if (dt > 0.0 && std::isfinite(dt) && force.allFinite())
+  if (dt > 0.0 && std::isfinite(dt) && wrench.force.allFinite())
   {
     // (m + c dt + k dt^2) v' = m v + dt (F + k (target - x)), then x' = x + dt v'
     const HandMechanics& hand = mechanics_;
-    const Eigen::Vector3d push = force + hand.stiffness * (target.apex - pose_.apex);
+    const Eigen::Vector3d push = wrench.force + hand.stiffness * (target.apex - pose_.apex);
     const double inertia = hand.mass + dt * (hand.damping + dt * hand.stiffness);
     pose_.velocity = (hand.mass * pose_.velocity + dt * push) / inertia;
     pose_.apex += dt * pose_.velocity;

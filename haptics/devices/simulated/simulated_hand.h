@@ -35,8 +35,7 @@ public:
   [[nodiscard]] DeviceLimits limits() const override;
 
   /// Implicit in spring and damper, so that it is stable for any tick.
-  [[nodiscard]] std::optional<ToolPose> exchange(
-    const Eigen::Vector3d& force, double dt) noexcept override;
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench& wrench, double dt) noexcept override;
 
 private:
   HandMechanics mechanics_;

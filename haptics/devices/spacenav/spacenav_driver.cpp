@@ -57,8 +57,7 @@ public:
     return { .model = "six-axis mouse (spacenavd)" };
   }
 
-  [[nodiscard]] IoCode tick(
-    const Eigen::Vector3d&, double dt, DriverSample& sample) noexcept override
+  [[nodiscard]] IoCode tick(const Wrench&, double dt, DriverSample& sample) noexcept override
   {
     bool heard = false;
     for (int i = 0; i < kEvents && isReadable(); ++i)

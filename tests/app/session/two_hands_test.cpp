@@ -54,10 +54,9 @@ public:
   {
     return { .model = "held", .rendersForce = true, .maxForce = 7.0, .damping = 2.0 };
   }
-  [[nodiscard]] std::optional<ToolPose> exchange(
-    const Eigen::Vector3d& force, double) noexcept override
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench& wrench, double) noexcept override
   {
-    arm_.told = force.norm();
+    arm_.told = wrench.force.norm();
     depth_ += std::clamp(arm_.depth - depth_, -0.1_mm, 0.1_mm);
     return arm_.isGone ? std::nullopt : std::optional(ToolPose{ .apex = { arm_.x, 0.0, -depth_ } });
   }

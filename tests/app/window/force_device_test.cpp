@@ -92,10 +92,9 @@ public:
   {
     arm_.held = held;
   }
-  [[nodiscard]] std::optional<ToolPose> exchange(
-    const Eigen::Vector3d& force, double) noexcept override
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench& wrench, double) noexcept override
   {
-    arm_.force = force.norm();
+    arm_.force = wrench.force.norm();
     depth_ += std::clamp(arm_.depth - depth_, -1e-4, 1e-4);
     const ToolPose pose{ .apex = arm_.top - depth_ * Eigen::Vector3d::UnitZ() };
     return arm_.plugged ? std::optional(pose) : std::nullopt;

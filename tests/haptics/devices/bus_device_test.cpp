@@ -68,7 +68,7 @@ public:
     };
   }
 
-  IoCode tick(const Vector3d& force, double dt, DriverSample& sample) noexcept override
+  IoCode tick(const Wrench& wrench, double dt, DriverSample& sample) noexcept override
   {
     for (; fake_.blocks; fake_.blocked = true) // as a USB transfer may
     {
@@ -80,10 +80,10 @@ public:
       ++fake_.losses;
       return IoCode::Gone;
     }
-    fake_.forces.push_back(force);
+    fake_.forces.push_back(wrench.force);
     fake_.times.push_back(dt);
     fake_.ends.push_back(std::chrono::steady_clock::now());
-    fake_.last = force.norm();
+    fake_.last = wrench.force.norm();
     sample = { .position = Vector3d(1.0_mm, 2.0_mm, 3.0_mm + ++ticks_ * 1.0_um),
       .homed = fake_.homed,
       .stopped = fake_.stopped,

@@ -38,6 +38,25 @@ TEST(DeviceMapping, TheToolIsTurnedAsTheHandleInTheFrameOfTheScene)
   EXPECT_LT((exchangeUntilHeard(*turned, arm).axis - away).norm(), 1e-12);
 }
 
+// by work: however the device stands, a torque through the turn of its handle is one through that
+// of the tool
+TEST(DeviceMapping, ATorqueIsTurnedAsTheTool)
+{
+  Arm arm;
+  DevicePlacement askew;
+  askew.rotation = AngleAxisd(0.7, Vector3d(0.48, 0.6, 0.64)).toRotationMatrix();
+  const auto device = placed(arm, askew);
+  const Vector3d before = exchangeUntilHeard(*device, arm).axis;
+  const Vector3d turn = 1e-6 * Vector3d(1.0, -0.4, 0.0); // of the handle, across its axis
+  arm.says.orientation = AngleAxisd(turn.norm(), turn.normalized());
+  const Vector3d after = exchangeUntilHeard(*device, arm).axis;
+  const Vector3d torque(0.02, -0.05, 0.04);
+  while (!device->exchange({ Vector3d::UnitX(), torque }, 1.0_ms) || arm.told.isZero())
+  {
+  }
+  EXPECT_NEAR(arm.turned.dot(turn), torque.dot(before.cross(after)), 1e-10);
+}
+
 // Eq. (7): of the force, which is along the normal, a tool that is tilted feels its cosine
 TEST(DeviceMapping, ATiltOfTheHandleIsFelt)
 {

@@ -13,6 +13,7 @@
 int main(int, char** arguments)
 {
   using namespace std::chrono_literals;
+  const Eigen::Vector3d push(0.5, 0.0, 0.5); // [N]
   const int board = std::atoi(arguments[1]);
   const std::vector<char> memory(std::strtoul(arguments[2], nullptr, 10) << 20U, 'x');
   palp::BusDevice device(
@@ -25,8 +26,8 @@ int main(int, char** arguments)
     {});
   for (;;)
   {
-    (void)device.exchange({ 0.5, 0.0, 0.5 }, 0.001);
-    device.answer({ 0.5, 0.0, 0.5 });
+    (void)device.exchange(push, 0.001);
+    device.answer(push);
     std::this_thread::sleep_for(1ms);
   }
 }

@@ -38,7 +38,7 @@ public:
       Phd1State{ .homed = true, .sequence = ++sequence_, .microseconds = 1000U * sequence_ });
     EXPECT_EQ(write(board_, state.data(), state.size()), static_cast<ssize_t>(state.size()));
     DriverSample sample;
-    EXPECT_EQ(driver_->tick({ 0, 0, 1 }, 0.001, sample), IoCode::Ok);
+    EXPECT_EQ(driver_->tick(Eigen::Vector3d(0, 0, 1), 0.001, sample), IoCode::Ok);
     std::array<std::byte, 128> in{};
     for (ssize_t size = 0; (size = recv(board_, in.data(), in.size(), 0)) > 0;)
     {

@@ -19,7 +19,8 @@ struct Arm
 {
   DriverSample says;
   DeviceLimits limits{ .model = "made up", .rendersForce = true, .maxForce = 4.0, .damping = 1.0 };
-  Vector3d told = Vector3d::Zero(); // [N]
+  Vector3d told = Vector3d::Zero();   // [N]
+  Vector3d turned = Vector3d::Zero(); // [N m]
   std::atomic<int> ticks = 0;
 };
 
@@ -34,9 +35,10 @@ public:
   {
     return arm_.limits;
   }
-  [[nodiscard]] IoCode tick(const Vector3d& force, double, DriverSample& sample) noexcept override
+  [[nodiscard]] IoCode tick(const Wrench& wrench, double, DriverSample& sample) noexcept override
   {
-    arm_.told = force;
+    arm_.told = wrench.force;
+    arm_.turned = wrench.torque;
     ++arm_.ticks;
     sample = arm_.says;
     return IoCode::Ok;

@@ -27,10 +27,9 @@ public:
   {
     return { .model = "held", .rendersForce = true, .maxForce = 7.9, .damping = 1.0 };
   }
-  [[nodiscard]] std::optional<ToolPose> exchange(
-    const Eigen::Vector3d& force, double) noexcept override
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench& wrench, double) noexcept override
   {
-    told = force.norm();
+    told = wrench.force.norm();
     ++exchanges;
     depth_ += std::clamp(depth - depth_, -0.1_mm, 0.1_mm);
     return isGone ? std::nullopt : std::optional(ToolPose{ .apex = { 0.0, 0.0, -depth_ } });

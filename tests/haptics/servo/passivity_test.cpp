@@ -34,7 +34,7 @@ TEST(PassivityController, BooksTheLeakOfASampledSpring)
       const double amplitude = 2.0_mm;
       const double omega = 2.0 * std::numbers::pi * frequency;
       const int ticks = static_cast<int>(std::lround(1000.0 / frequency));
-      controller.restart(along(0.0));
+      controller.restart({ along(0.0) });
       for (int tick = 0; tick <= ticks; ++tick)
       {
         const double x = amplitude * std::sin(omega * tick * 1.0_ms);
@@ -67,7 +67,7 @@ Tap tap(double damping, double stiffness, double maxDamping, double duration = 8
   double v = 0.2;
   double port = 0.0;
   double before = x;
-  controller.restart(along(x));
+  controller.restart({ along(x) });
   const int ticks = static_cast<int>(duration * 1000.0);
   for (int tick = 0; tick < ticks; ++tick)
   {
@@ -147,7 +147,7 @@ struct LatePlant
     double v = 0.2;
     double port = 0.0;
     double before = x;
-    controller.restart(along(x));
+    controller.restart({ along(x) });
     for (int tick = 0; tick * 1.0_ms < kLong; ++tick)
     {
       const double speed = (x - std::exchange(before, x)) / 1.0_ms;
@@ -209,7 +209,7 @@ TEST(PassivityController, CalmsALateWallThatNoBoundWasAskedFor)
 TEST(PassivityController, EnergyInTheSpringIsNoCredit)
 {
   PassivityController controller(30.0);
-  controller.restart(along(0.0));
+  controller.restart({ along(0.0) });
   controller.sent(along(-5.0));
   const Vector3d force = controller.damp(
     { .position = along(1.0_mm), .velocity = along(0.1), .dt = 1.0_ms, .stored = 7.0e-3 });
@@ -220,17 +220,35 @@ TEST(PassivityController, EnergyInTheSpringIsNoCredit)
 TEST(PassivityController, BooksWhatTheMotorsWereGiven)
 {
   PassivityController controller(0.0);
-  controller.restart(along(0.0));
+  controller.restart({ along(0.0) });
   controller.sent(along(-5.0));
   controller.given(along(-3.0));
   (void)controller.damp({ .position = along(1.0_mm), .dt = 1.0_ms });
   EXPECT_NEAR(controller.energy(), 3.0e-3, 1e-12);
 }
 
+// a torque works where the tool turns, as a force where it goes
+TEST(PassivityController, BooksTheTurnsOfATool)
+{
+  PassivityController controller(0.0);
+  const Vector3d down = -Vector3d::UnitZ();
+  controller.restart({ along(0.0), down });
+  const Vector3d about = Vector3d(0.6, 0.8, 0.0); // of a spring that turns it upright
+  constexpr double kStiffness = 0.1;
+  constexpr double kTurned = 1e-3;
+  for (int i = 0; i < 200; ++i)
+  {
+    controller.sent({ Vector3d::Zero(), -kStiffness * i * kTurned * about });
+    const Vector3d axis = Eigen::AngleAxisd((i + 1) * kTurned, about) * down;
+    (void)controller.damp({ .position = along(0.0), .axis = axis, .dt = 1.0_ms });
+  }
+  EXPECT_NEAR(controller.energy(), 0.5 * kStiffness * 0.2 * 0.2, 0.01 * 2e-3);
+}
+
 TEST(PassivityController, NeverPushesAlongTheMotion)
 {
   PassivityController controller(30.0);
-  controller.restart(along(0.0));
+  controller.restart({ along(0.0) });
   controller.sent(along(5.0));
   const Vector3d force = controller.damp(
     { .position = along(1.0_mm), .velocity = Vector3d(0.1, 0.2, -0.1), .dt = 1.0_ms });
@@ -241,7 +259,7 @@ TEST(PassivityController, NeverPushesAlongTheMotion)
 TEST(PassivityController, LeavesAHandAloneThatWasGivenNothing)
 {
   PassivityController controller(30.0);
-  controller.restart(along(0.0));
+  controller.restart({ along(0.0) });
   controller.sent(along(-5.0));
   EXPECT_TRUE(controller.damp({ .position = along(1.0_mm), .velocity = along(0.1), .dt = 1.0_ms })
                 .isZero(0.0));

@@ -25,10 +25,9 @@ public:
     return { .model = "probe", .rendersForce = rendersForce, .maxForce = 7.9, .damping = 1.0 };
   }
 
-  [[nodiscard]] std::optional<ToolPose> exchange(
-    const Eigen::Vector3d& force, double dt) noexcept override
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench& wrench, double dt) noexcept override
   {
-    last = force;
+    last = wrench.force;
     elapsed += dt;
     ++calls;
     if (stall > 0ms && calls == 5)
@@ -73,7 +72,7 @@ public:
     return { .model = "bus", .rendersForce = true, .maxForce = 7.9, .damping = 1.0 };
   }
 
-  [[nodiscard]] std::optional<ToolPose> exchange(const Eigen::Vector3d&, double) noexcept override
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench&, double) noexcept override
   {
     starts.push_back(std::chrono::steady_clock::now());
     std::this_thread::sleep_for(bus_);
@@ -81,7 +80,7 @@ public:
     return ToolPose{ .apex = { 0.0, 0.0, 2.0_mm } };
   }
 
-  void answer(const Eigen::Vector3d&) noexcept override
+  void answer(const Wrench&) noexcept override
   {
     answers += exchanges > answers ? 1 : 1000; // one after each exchange at most
   }

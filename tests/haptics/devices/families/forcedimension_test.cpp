@@ -74,6 +74,42 @@ TEST_F(ForceDimension, PlaceAndForceAreInOneFrame)
   EXPECT_NEAR(sample_.position.x(), -0.02, 1e-12); // its y is to the right
 }
 
+// by work, as a force: a torque through a turn is one whatever the frames are called; an arm whose
+// wrist has no motors, or that was not homed, gets none
+TEST_F(ForceDimension, TorqueAndTurnAreInOneFrame)
+{
+  arm_->name = "sigma.7";
+  arm_->initialized = true;
+  const Vector3d torque(0.02, -0.05, 0.03);
+  const auto told = [&] { return Vector3d(arm_->torque[0], arm_->torque[1], arm_->torque[2]); };
+  EXPECT_EQ(openDriver(kName)->limits().maxTorque, 0.0);
+  {
+    const auto passive = openDriver(kName);
+    (void)passive->tick(Vector3d::Zero(), 1.0_ms, sample_);
+    (void)passive->tick({ Vector3d::Zero(), torque }, 1.0_ms, sample_);
+    EXPECT_EQ(told(), Vector3d::Zero());
+  }
+  arm_->hasActiveWrist = true;
+  const auto driver = openDriver(kName);
+  EXPECT_EQ(driver->limits().maxTorque, 0.2); // of CDeltaDevices.cpp
+  EXPECT_LT(driver->limits().maxTurning, 1.0);
+  (void)driver->tick({ Vector3d::Zero(), torque }, 1.0_ms, sample_);
+  EXPECT_EQ(told(), Vector3d::Zero()) << "before it has said that it is homed";
+  const Eigen::Quaterniond before = sample_.orientation;
+  const Vector3d way = 1e-6 * Vector3d(1.0, 2.0, -0.5); // its own frame turns so
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(way.norm(), way.normalized()).toRotationMatrix();
+  for (int i = 0; i < 9; ++i)
+  {
+    arm_->frame[i / 3][i % 3] = turn(i / 3, i % 3);
+  }
+  (void)driver->tick({ Vector3d::Zero(), torque }, 1.0_ms, sample_);
+  const Eigen::Quaterniond turned = sample_.orientation * before.inverse();
+  EXPECT_NEAR(told().dot(way), torque.dot(2.0 * turned.vec()), 1e-3 * torque.norm() * way.norm());
+  (void)driver->tick({ Vector3d(0, 0, 1), Vector3d(0, std::nan(""), 0) }, 1.0_ms, sample_);
+  EXPECT_EQ(told(), Vector3d::Zero());
+  EXPECT_EQ(arm_->force[2], 0.0);
+}
+
 // theirs: x to the user, along a pen that is held level; y right, z up
 TEST_F(ForceDimension, ItsPenPointsWhereTheToolDoes)
 {

@@ -59,6 +59,10 @@ extern "C"
   {
     return gArm.hasWrist;
   }
+  bool dhdHasActiveWrist(char)
+  {
+    return gArm.hasActiveWrist;
+  }
   int dhdGetOrientationFrame(double frame[3][3], char)
   {
     for (int i = 0; i < 9; ++i)
@@ -71,13 +75,16 @@ extern "C"
   {
     return 1;
   }
-  int dhdSetForceAndTorque(double x, double y, double z, double, double, double, char)
+  int dhdSetForceAndTorque(double x, double y, double z, double a, double b, double c, char)
   {
     const double size = x * x + y * y + z * z;
     const double share = size > 12.0 * 12.0 ? 0.5 : 1.0; // what its motors can
     gArm.force[0] = share * x;
     gArm.force[1] = share * y;
     gArm.force[2] = share * z;
+    gArm.torque[0] = a;
+    gArm.torque[1] = b;
+    gArm.torque[2] = c;
     return !gArm.there ? -1 : share < 1.0 ? 2 : 0;
   }
   int dhdGetForce(double* x, double* y, double* z, char)

@@ -184,9 +184,9 @@ public:
   {
     return { .model = "arm", .maxForce = 4.0, .damping = 0.5, .quantum = 54e-6, .delay = 0.001 };
   }
-  [[nodiscard]] IoCode tick(const Vector3d& force, double, DriverSample&) noexcept override
+  [[nodiscard]] IoCode tick(const Wrench& wrench, double, DriverSample&) noexcept override
   {
-    told_ = force;
+    told_ = wrench.force;
     return IoCode::Ok;
   }
 

@@ -29,7 +29,7 @@ public:
   {
     return { .model = "held" };
   }
-  [[nodiscard]] std::optional<ToolPose> exchange(const Eigen::Vector3d&, double) noexcept override
+  [[nodiscard]] std::optional<ToolPose> exchange(const Wrench&, double) noexcept override
   {
     return pose_;
   }
