@@ -25,17 +25,35 @@
 #include <iostream>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 namespace palp
 {
 namespace
 {
 
-// whether the device got the force of the law
-bool isWhole(const Sample& sample)
+// what of the force of the law comes to the device, and why it is not as much; else nothing
+std::string sentOf(const Sample& sample)
 {
   constexpr double kSame = 0.01; // [-]
-  return std::abs(sample.force.norm() - sample.response.force) <= kSame * sample.response.force;
+  const double sent = sample.force.norm();
+  const double law = sample.response.force;
+  const double slope = sample.contact.slope;
+  if (std::abs(sent - law) <= kSame * law)
+  {
+    return "";
+  }
+  const bool isLimited = (sample.flags & static_cast<std::uint32_t>(Flag::Limited)) != 0;
+  const bool isByShape = std::abs(sent - slope * law) <= kSame * sent;
+  std::ostringstream text;
+  text << " (" << sent << " N to the device: ";
+  if (!isLimited && isByShape)
+  {
+    text << "the contact deepens by " << slope << " mm in a mm of the tool's way)";
+    return text.str();
+  }
+  text << (isLimited ? "the force limit)" : "with damping and what pushes the tool aside)");
+  return text.str();
 }
 
 // names the conditions of the law that are broken where it is pressed deepest, and counts the
@@ -108,13 +126,8 @@ void tell(const Recording& recording, const Calibration* calibration, const Scri
   const std::string organ = recording.organName(deepest->organ);
   std::cerr << "palp: deepest " << toMillimeters(deepest->contact.depth) << " mm"
             << (organ.empty() ? "" : " in " + organ) << ", force " << deepest->response.force
-            << " N";
-  if (!isWhole(*deepest)) // damped or limited
-  {
-    std::cerr << " (" << deepest->force.norm() << " N to the device)";
-  }
-  std::cerr << ", contact radius of the law " << toMillimeters(deepest->response.contactRadius)
-            << " mm";
+            << " N" << sentOf(*deepest) << ", contact radius of the law "
+            << toMillimeters(deepest->response.contactRadius) << " mm";
   calibration = calibration ? &organOf(*calibration, deepest->organ) : nullptr;
   if (calibration)
   {

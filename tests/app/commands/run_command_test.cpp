@@ -320,7 +320,7 @@ TEST_F(RunCommand, TellsTheForceThatTheDeviceGets)
 {
   const Finished finished = press("--no-picture --damping 20N*s/m", "out");
   EXPECT_EQ(finished.code, 0) << finished.err;
-  EXPECT_NE(finished.err.find(" N to the device)"), std::string::npos) << finished.err;
+  EXPECT_NE(finished.err.find(" N to the device: with damping"), std::string::npos) << finished.err;
   EXPECT_EQ(finished.err.find("cut"), std::string::npos) << finished.err;
 }
 
