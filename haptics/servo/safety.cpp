@@ -14,7 +14,7 @@ namespace palp
 namespace
 {
 
-constexpr double kFreeSpace = 0.050;  // [s] without contact end a soft start
+constexpr double kFreeSpace = 0.050;  // [s] without tissue or wall end a soft start
 constexpr double kFastest = 0.25;     // pace of a bus, by the period that was asked for
 constexpr double kSurely = 0.5;       // of the stated dissipation of a mechanism
 constexpr double kQuickDamping = 0.5; // of a mass, by the delay after which it would swing [-]
@@ -119,7 +119,7 @@ void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene,
     shaped_ = bounded(force, largestForce(scene));
     fade();
     sample.force = share_ * shaped_ + watchdogGain_ * fading_;
-    ramp(sample.contact.touching());
+    ramp(sample.contact.touching() || !wall.isZero(0.0));
     if (device_.maxTorque > 0.0 && tissue != nullptr && sample.contact.touching())
     {
       sample.torque = turning(sample, scene, *tissue);

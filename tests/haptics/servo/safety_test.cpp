@@ -163,6 +163,30 @@ TEST(SafetyChain, WorkspaceEndsInASoftSpringInward)
   EXPECT_NEAR(before.x(), -2.0, 1e-12);
 }
 
+// where an arm may rest: that of a WoodenHaptics does
+TEST(SafetyChain, ASoftStartBeyondTheWorkspaceIsAsSoftAsInTissue)
+{
+  DeviceLimits device = arm();
+  device.workspaceRadius = 0.1;
+  Bench bench(device);
+  const ToolPose rest{ .apex = Vector3d(0, 0, 0.2) };
+  for (int i = 0; i < 100; ++i)
+  {
+    (void)bench.tick(rest);
+  }
+  bench.orders.armed = true;
+  double before = 0.0;
+  for (int i = 0; i < 1000; ++i)
+  {
+    const Sample sample = bench.tick(rest);
+    const double force = sample.force.norm();
+    ASSERT_LE(force - before, kSoftSlew * (1.0 + 1e-9)) << i;
+    ASSERT_LE(force, device.maxForce * i / 500.0 + 1e-9) << i;
+    before = force;
+  }
+  EXPECT_NEAR(before, 2.0, 1e-6); // the whole of the wall
+}
+
 TEST(SafetyChain, DoesNotAllocate)
 {
   Bench bench;
