@@ -69,9 +69,11 @@ function(palp_install component)
     get_target_property(directory ${target} SOURCE_DIR)
     get_target_property(headers ${target} SOURCES)
     list(FILTER headers INCLUDE REGEX "\\.h$")
-    list(TRANSFORM headers PREPEND ${directory}/)
     file(RELATIVE_PATH place ${PROJECT_SOURCE_DIR} ${directory})
-    install(FILES ${headers} DESTINATION include/palp/${place})
+    foreach(header ${headers}) # some in folders below
+      get_filename_component(below ${header} DIRECTORY)
+      install(FILES ${directory}/${header} DESTINATION include/palp/${place}/${below})
+    endforeach()
   endforeach()
 endfunction()
 

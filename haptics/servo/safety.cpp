@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -64,6 +65,14 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
     {
       refuse("safety chain", name, value, "must be > 0 and finite");
     }
+  }
+  if (!(settings.stiffnessFraction <= 1.0))
+  {
+    refuse("safety chain", "stiffnessFraction", settings.stiffnessFraction, "must be at most 1");
+  }
+  if (!device.workspaceCenter.allFinite())
+  {
+    refuse(device.model, "workspaceCenter", device.workspaceCenter.sum(), "must be finite");
   }
   if (settings.softSlewRate >= settings.slewRate) // a force that is let go would stay for ever
   {
@@ -137,7 +146,10 @@ void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene,
 
 double SafetyChain::largestForce(const Scene& scene) const noexcept
 {
-  return std::min(device_.maxForce, scene.forceLimit);
+  const double turns = device_.maxTorque > 0.0
+    ? device_.maxTorque / baseRadius(scene.law.tip()) // at most, whatever the lean
+    : std::numeric_limits<double>::infinity();
+  return std::min({ device_.maxForce, scene.forceLimit, turns });
 }
 
 // the law through the coupling, with damping along the normal
@@ -145,7 +157,8 @@ Eigen::Vector3d SafetyChain::rendered(Sample& sample, const DepthLaw& law, const
   const TissueAt* tissue, TissueMemory* memory) noexcept
 {
   const double depth = sample.contact.depth;
-  const double stiffest = guard_.stiffnessShare() * stiffnessLimit(scene.damping);
+  const double stiffest =
+    guard_.stiffnessShare() * std::min(stiffnessLimit(scene.damping), stiffestTurn(scene));
   const bool isOther = std::exchange(organ_, sample.organ) != sample.organ;
   const bool touched = std::exchange(touched_, depth > 0.0);
   const bool changed = std::exchange(version_, scene.version) != scene.version;

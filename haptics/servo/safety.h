@@ -109,6 +109,7 @@ private:
   [[nodiscard]] double highestNormalForce(const Scene& scene) const noexcept;
   [[nodiscard]] Eigen::Vector3d push(
     const Contact& contact, const Rendered& felt, const Scene& scene) noexcept;
+  [[nodiscard]] double stiffestTurn(const Scene& scene) const noexcept;
   [[nodiscard]] Eigen::Vector3d turning(
     const Sample& sample, const Scene& scene, const TissueAt& tissue) const noexcept;
   [[nodiscard]] double renderedDamping(double wanted) const noexcept;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace palp
 {
@@ -60,21 +61,26 @@ double SafetyChain::stiffnessLimit(double damping) const noexcept
     guard_.stiffest(passivity_.maxDamping()) });
 }
 
-// as much of the tissue's torque as is sent of its force, and no stiffer than the wrist bears
+// Of the force, at which a lean of the tool is no stiffer than its wrist bears: were the torque
+// alone less, its force would give energy as the tool leans. [N/m]
+double SafetyChain::stiffestTurn(const Scene& scene) const noexcept
+{
+  const double reach = baseRadius(scene.law.tip());
+  return device_.maxTorque > 0.0 ? device_.maxTurning / (reach * reach)
+                                 : std::numeric_limits<double>::infinity();
+}
+
+// as much of the tissue's torque as is sent of its force
 Eigen::Vector3d SafetyChain::turning(
   const Sample& sample, const Scene& scene, const TissueAt& tissue) const noexcept
 {
-  const Response felt = tissue(sample.proxyDepth);
-  const double whole = sample.contact.slope * felt.force;
+  const double whole = sample.contact.slope * tissue(sample.proxyDepth).force;
   const double sent = sample.force.dot(sample.contact.normal);
   if (!(sent > 0.0 && whole > 0.0))
   {
     return Eigen::Vector3d::Zero();
   }
-  const double reach = baseRadius(scene.law.tip());
-  const double stiffness = reach * (reach * felt.stiffness + felt.force);
-  const double part = std::min(1.0, sent / whole) * std::min(1.0, device_.maxTurning / stiffness);
-  const Eigen::Vector3d torque = part * torqueAt(scene, sample, tissue);
+  const Eigen::Vector3d torque = std::min(1.0, sent / whole) * torqueAt(scene, sample, tissue);
   const double size = torque.norm();
   return size <= device_.maxTorque ? torque
     : std::isfinite(size)          ? Eigen::Vector3d(device_.maxTorque / size * torque)

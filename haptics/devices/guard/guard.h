@@ -57,7 +57,7 @@ public:
     return block_->leaving != 0;
   }
 
-  /// False once the guardian itself was killed.
+  /// False once the guardian itself was killed, and while it is stopped, seen after half a second.
   /// @realtime  no allocation, no lock, no exception
   [[nodiscard]] bool lives() const noexcept;
 

@@ -18,17 +18,18 @@ enum class GuardWire : std::uint32_t
 
 /// What a program and its guardian share; times are of CLOCK_MONOTONIC [ns].
 ///
-/// The program writes all but fired, leaving and watched; each field alone is whole, and no two
-/// have to agree.
+/// The program writes all but fired, leaving, watched and guardianBeat; each field alone is whole,
+/// and no two have to agree.
 struct GuardBlock
 {
-  std::atomic<std::int64_t> beat = 0;     ///< last sign of life
-  std::atomic<std::uint32_t> forced = 0;  ///< 1: the motors may hold a force
-  std::atomic<std::uint32_t> closed = 0;  ///< 1: ended in order, zero was sent
-  std::atomic<std::uint32_t> fired = 0;   ///< times that the guardian ended a force
-  std::atomic<std::uint32_t> leaving = 0; ///< 1: the machine is about to be suspended
-  std::atomic<std::uint32_t> watched = 0; ///< 1: the guardian is there
-  std::int64_t limit = 0;                 ///< silence that it bears
+  std::atomic<std::int64_t> beat = 0;         ///< last sign of life
+  std::atomic<std::uint32_t> forced = 0;      ///< 1: the motors may hold a force
+  std::atomic<std::uint32_t> closed = 0;      ///< 1: ended in order, zero was sent
+  std::atomic<std::uint32_t> fired = 0;       ///< times that the guardian ended a force
+  std::atomic<std::uint32_t> leaving = 0;     ///< 1: the machine is about to be suspended
+  std::atomic<std::uint32_t> watched = 0;     ///< 1: the guardian is there
+  std::atomic<std::int64_t> guardianBeat = 0; ///< last sign of life of the guardian
+  std::int64_t limit = 0;                     ///< silence that it bears
   GuardWire wire = GuardWire::File;
   ZeroPacket zero;
 };

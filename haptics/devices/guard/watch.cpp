@@ -61,9 +61,11 @@ void watch(GuardBlock& block, int device, int program, int link) noexcept
   std::int64_t answered = 0; // silence that has been: the beat before it
   int words = 0;             // zeros sent in it
   std::int64_t asleep = suspendedFor();
+  block.guardianBeat = nanoseconds(CLOCK_MONOTONIC);
   block.watched = 1;
   for (std::int64_t pause = block.limit;;)
   {
+    block.guardianBeat = nanoseconds(CLOCK_MONOTONIC);
     const Links links = wait(program, link, pause);
     if (links.dead || links.closed)
     {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <sstream>
+#include <utility>
 
 namespace palp
 {
@@ -20,7 +22,10 @@ struct Key
 {
   std::string_view name;
   std::span<double> values;
-  bool positive;
+  double least; // what an arm on a desk can have; more or less is of another unit
+  double most;
+  std::string_view unit;
+  bool given = false;
 };
 
 std::string_view nextWord(std::string_view& text)
@@ -32,19 +37,78 @@ std::string_view nextWord(std::string_view& text)
   return word;
 }
 
-bool readValues(std::string_view text, const Key& key)
+// what is wrong with the values of a key and what to do, or nothing
+std::string readValues(std::string_view text, const Key& key)
 {
+  std::ostringstream wrong;
   for (double& value : key.values)
   {
     const std::string_view word = nextWord(text);
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value) ||
-      (key.positive && !(value > 0.0)))
+    if (error != std::errc{} || end != word.data() + word.size())
     {
-      return false;
+      wrong << key.name << " takes " << (key.values.size() == 1 ? "one number" : "three numbers")
+            << " in " << key.unit << ", with a decimal point and no unit behind";
+      return wrong.str();
+    }
+    if (!(value >= key.least && value <= key.most))
+    {
+      wrong << key.name << " is " << word << "; give " << key.least << " to " << key.most << ' '
+            << key.unit;
+      return wrong.str();
     }
   }
-  return nextWord(text).empty();
+  return nextWord(text).empty() ? "" : std::string(key.name) + " has more values than it takes";
+}
+
+std::string namesOf(std::span<const Key> keys)
+{
+  std::string names;
+  for (const Key& key : keys)
+  {
+    names += (names.empty() ? "" : ", ") + std::string(key.name);
+  }
+  return names;
+}
+
+// one key in a line
+void readKeys(std::string_view text, std::span<Key> keys, const std::string& name)
+{
+  const auto refuse = [&](int line, const std::string& why)
+  { throw Error(ErrorCode::BadFile, name + ":" + std::to_string(line) + ": " + why); };
+  for (int line = 1; !text.empty(); ++line)
+  {
+    std::string_view row = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), row.size() + 1));
+    row = row.substr(0, row.find('#'));
+    const std::string_view word = nextWord(row);
+    if (word.empty())
+    {
+      continue;
+    }
+    const auto key = std::ranges::find(keys, word, &Key::name);
+    if (key == keys.end())
+    {
+      refuse(line, "unknown key '" + std::string(word) + "'; expected one of " + namesOf(keys));
+    }
+    if (nextWord(row) != "=")
+    {
+      refuse(line, "no = after " + std::string(word) + "; write as in: length = 0.080 0.205 0.245");
+    }
+    if (std::exchange(key->given, true))
+    {
+      refuse(line, std::string(word) + " is given twice; keep one of them");
+    }
+    if (const std::string wrong = readValues(row, *key); !wrong.empty())
+    {
+      refuse(line, wrong);
+    }
+  }
+  if (std::ranges::none_of(keys, &Key::given))
+  {
+    throw Error(ErrorCode::BadFile,
+      name + ": tells nothing of an arm; give at least one of " + namesOf(keys));
+  }
 }
 
 } // namespace
@@ -84,42 +148,25 @@ std::optional<WoodenArm> publishedArm(std::string_view name) noexcept
 WoodenArm parseWoodenArm(std::string_view text, const std::string& name)
 {
   WoodenArm arm;
-  const std::array keys{ Key{ "capstan", arm.capstan, true }, Key{ "length", arm.length, true },
-    Key{ "body", arm.body, true }, Key{ "origin", arm.origin, false },
-    Key{ "torque", arm.torque, true }, Key{ "counts", arm.counts, true },
-    Key{ "sign", arm.sign, false }, Key{ "rest", arm.rest, false },
-    Key{ "wrist", arm.wrist, false }, Key{ "wrist_sign", arm.wristSign, false },
-    Key{ "radius", { &arm.radius, 1 }, true }, Key{ "max_force", { &arm.maxForce, 1 }, true },
-    Key{ "max_current", { &arm.maxCurrent, 1 }, true },
-    Key{ "continuous_current", { &arm.continuousCurrent, 1 }, true },
-    Key{ "peak_time", { &arm.peakTime, 1 }, true }, Key{ "damping", { &arm.damping, 1 }, true } };
-  for (int line = 1; !text.empty(); ++line)
-  {
-    std::string_view row = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(text.size(), row.size() + 1));
-    row = row.substr(0, row.find('#'));
-    const std::string_view word = nextWord(row);
-    if (word.empty())
-    {
-      continue;
-    }
-    const auto key = std::ranges::find(keys, word, &Key::name);
-    if (key == keys.end() || nextWord(row) != "=" || !readValues(row, *key))
-    {
-      throw Error(ErrorCode::BadFile,
-        name + ":" + std::to_string(line) +
-          ": not a known key with its numbers; write as in: length = 0.080 0.205 0.245");
-    }
-  }
+  std::array keys{ Key{ "capstan", arm.capstan, 0.001, 0.1, "m" },
+    Key{ "length", arm.length, 0.01, 2.0, "m" }, Key{ "body", arm.body, 0.01, 1.0, "m" },
+    Key{ "origin", arm.origin, -2.0, 2.0, "m" }, Key{ "torque", arm.torque, 0.001, 5.0, "N m/A" },
+    Key{ "counts", arm.counts, 10.0, 1e6, "counts in a turn" },
+    Key{ "sign", arm.sign, -1.0, 1.0, "1 or -1" },
+    Key{ "rest", arm.rest, -32'768.0, 32'767.0, "counts" },
+    Key{ "wrist", arm.wrist, 0.0, 1e6, "counts in a turn" },
+    Key{ "wrist_sign", arm.wristSign, -1.0, 1.0, "1 or -1" },
+    Key{ "radius", { &arm.radius, 1 }, 0.005, 1.0, "m" },
+    Key{ "max_force", { &arm.maxForce, 1 }, 0.1, 50.0, "N" },
+    Key{ "max_current", { &arm.maxCurrent, 1 }, 0.01, 20.0, "A" },
+    Key{ "continuous_current", { &arm.continuousCurrent, 1 }, 0.01, 20.0, "A" },
+    Key{ "peak_time", { &arm.peakTime, 1 }, 0.01, 60.0, "s" },
+    Key{ "damping", { &arm.damping, 1 }, 0.001, 10.0, "N s/m" } };
+  readKeys(text, keys, name);
   const auto isSign = [](double sign) { return std::abs(sign) == 1.0; };
   if (!std::ranges::all_of(arm.sign, isSign) || !std::ranges::all_of(arm.wristSign, isSign))
   {
     throw Error(ErrorCode::BadFile, name + ": a sign is neither 1 nor -1; give one of them");
-  }
-  if (std::ranges::any_of(arm.wrist, [](double counts) { return counts < 0.0; }))
-  {
-    throw Error(ErrorCode::BadFile,
-      name + ": wrist has fewer than 0 counts in a turn; give them, or 0 0 0 for none");
   }
   if (arm.continuousCurrent >= arm.maxCurrent)
   {

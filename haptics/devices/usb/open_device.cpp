@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -116,6 +117,12 @@ std::unique_ptr<Driver> openWooden(const std::string& rest)
   requirePath("wooden", rest);
   const auto [path, configuration] = boardParts(rest);
   const auto published = publishedArm(configuration.empty() ? "v2015" : configuration);
+  if (!published && !std::filesystem::exists(configuration))
+  {
+    throw Error(ErrorCode::BadValue,
+      "--device: '" + configuration +
+        "' is neither an arm nor a file; give v2015, v2019, polhem, aluhaptics or a file of yours");
+  }
   const WoodenArm arm = published
     ? *published
     : parseWoodenArm(readText(configuration, "the configuration"), configuration);

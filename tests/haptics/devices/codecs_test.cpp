@@ -270,22 +270,6 @@ TEST(WoodenHaptics, PublishedArmsPushWithTheirOwnMotors)
   }
 }
 
-TEST(WoodenHaptics, ConfigurationIsReadAndCheckedByLine)
-{
-  const WoodenArm arm = parseWoodenArm("# AluHaptics\nlength = 0.111 0.140 0.111\r\n"
-                                       "origin = 0.140 0 0\nmax_force = 3 # N\n",
-    "arm.conf");
-  EXPECT_EQ(arm.length[1], 0.140);
-  EXPECT_EQ(arm.origin[2], 0.0);
-  EXPECT_EQ(arm.maxForce, 3.0);
-  for (const char* bad : { "lenght = 1 2 3", "length = 1 2", "length 1 2 3", "length = 1 2 3 4",
-         "body = 0 1 1", "sign = 0.5 1 1", "rest = 0 0 0.5", "rest = 0 0 40000", "radius = nan",
-         "continuous_current = 3" })
-  {
-    EXPECT_THROW((void)parseWoodenArm(bad, "arm.conf"), Error) << bad;
-  }
-}
-
 // nothing that comes in can do more than be refused: run it under AddressSanitizer
 TEST(Codecs, BearWhateverComesIn)
 {

@@ -206,6 +206,27 @@ TEST_F(GuardedArm, GetsNoForceBeforeItIsWatched)
   expectInTime(beyond);
 }
 
+// one that stands still would end no force, and says nothing of it
+TEST_F(GuardedArm, GetsNoForceWhileItsGuardianIsStopped)
+{
+  start(0);
+  untilItPushes();
+  const std::string whole = "/proc/" + std::to_string(victim_);
+  pid_t guardian = 0;
+  std::ifstream(whole + "/task/" + std::to_string(victim_) + "/children") >> guardian;
+  ASSERT_GT(guardian, 0);
+  kill(guardian, SIGSTOP);
+  const auto end = Board::Clock::now() + 10s;
+  for (int still = 0; still < 100 && Board::Clock::now() < end;)
+  {
+    std::this_thread::sleep_for(1ms);
+    still = board_->last == 0 ? still + 1 : 0;
+  }
+  EXPECT_EQ(board_->last, 0);
+  kill(guardian, SIGCONT);
+  kill(guardian, SIGKILL);
+}
+
 TEST_F(GuardedArm, GetsNoForceAtOnceFromAProgramThatGoesOn)
 {
   start(0);
