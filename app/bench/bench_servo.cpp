@@ -93,8 +93,8 @@ void benchSurface(
   ServoTick onOrgan(surface, organOn(mesh));
   rows.push_back(benchMoving(onOrgan, vertices, ticks, "organ"));
   DeviceLimits wrist = benchDevice();
-  wrist.maxTorque = 0.2;   // [N m]
-  wrist.maxTurning = 0.25; // [N m/rad]
+  wrist.maxTorque = 0.2;            // [N m]
+  wrist.maxAngularStiffness = 0.25; // [N m/rad]
   ServoTick turning(surface, {}, wrist);
   rows.push_back(benchMoving(turning, vertices, ticks, "torque"));
   ServoTick inTissue(surface, tissue);

@@ -105,6 +105,14 @@ std::string listOf(std::span<const Unit> units)
   return names;
 }
 
+[[noreturn]] void refuseBare(std::string_view what, std::string_view text, std::string_view number,
+  const Unit& likely, std::span<const Unit> units)
+{
+  refuse(what, text,
+    "has no unit; write " + std::string(number) + std::string(likely.name) + " (" + listOf(units) +
+      ")");
+}
+
 const Unit& unitNamed(std::string_view name, Quantity kind, std::string_view what,
   std::string_view text, std::string_view number)
 {
@@ -119,9 +127,7 @@ const Unit& unitNamed(std::string_view name, Quantity kind, std::string_view wha
   }
   if (name.empty())
   {
-    refuse(what, text,
-      "has no unit; write " + std::string(number) + std::string(units.front().name) + " (" +
-        listOf(units) + ")");
+    refuseBare(what, text, number, units.front(), units);
   }
   refuse(what, text, "has the unit " + inQuotes(name) + "; use one of " + listOf(units));
 }
@@ -161,8 +167,16 @@ std::string quantityText(double value, Quantity kind)
 double parseWithin(
   std::string_view text, Quantity kind, const Bounds& bounds, std::string_view what)
 {
+  const auto isWithin = [&](double value) { return value >= bounds.least && value <= bounds.most; };
+  if (const Split split = splitNumber(text, what); split.rest.empty())
+  {
+    const std::span<const Unit> units = unitsOf(kind);
+    const auto meant = std::ranges::find_if(
+      units, [&](const Unit& unit) { return isWithin(toSi(split.number, unit)); });
+    refuseBare(what, text, text, meant != units.end() ? *meant : units.front(), units);
+  }
   const double value = parseQuantity(text, kind, what);
-  if (!(value >= bounds.least && value <= bounds.most))
+  if (!isWithin(value))
   {
     refuse(what, text, "is out of range; give " + std::string(bounds.inWords));
   }

@@ -22,12 +22,12 @@ inline const Eigen::Matrix3d kFacesUser{ { 0.0, 1.0, 0.0 }, { -1.0, 0.0, 0.0 }, 
 /// What a device can do and bear.
 struct DeviceLimits
 {
-  std::string model;            ///< for people
-  bool rendersForce = false;    ///< a hand can feel it
-  bool needsHoming = false;     ///< its positions mean nothing until status().homed
-  double maxForce = 0.0;        ///< [N]
-  double maxTorque = 0.0;       ///< [N m]; 0: it renders none
-  double maxTurning = 0.0;      ///< angular stiffness that it may render [N m/rad]
+  std::string model;                ///< for people
+  bool rendersForce = false;        ///< a hand can feel it
+  bool needsHoming = false;         ///< its positions mean nothing until status().homed
+  double maxForce = 0.0;            ///< [N]
+  double maxTorque = 0.0;           ///< [N m]; 0: it renders none
+  double maxAngularStiffness = 0.0; ///< that it may render [N m/rad]
   double damping = 0.0;         ///< b of the mechanism [N s/m], what makes a sampled wall stable
   double friction = 0.0;        ///< f_c of the mechanism, Coulomb's [N]
   double mass = 0.0;            ///< of the mechanism, as felt at its end [kg]; 0: unknown

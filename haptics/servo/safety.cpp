@@ -79,7 +79,7 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
     refuse("safety chain", "softSlewRate", settings.softSlewRate, "must be below slewRate");
   }
   for (const auto& [name, value] : { Named{ "maxForce", device.maxForce },
-         { "maxTorque", device.maxTorque }, { "maxTurning", device.maxTurning },
+         { "maxTorque", device.maxTorque }, { "maxAngularStiffness", device.maxAngularStiffness },
          { "damping", device.damping }, { "friction", device.friction }, { "mass", device.mass },
          { "handDamping", device.handDamping }, { "quantum", device.quantum },
          { "delay", device.delay }, { "velocityDelay", device.velocityDelay },
@@ -131,7 +131,7 @@ void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene,
     ramp(sample.contact.touching() || !wall.isZero(0.0));
     if (device_.maxTorque > 0.0 && tissue != nullptr && sample.contact.touching())
     {
-      sample.torque = turning(sample, scene, *tissue);
+      sample.torque = renderedTorque(sample, scene, *tissue);
     }
   }
   else
@@ -158,11 +158,12 @@ Eigen::Vector3d SafetyChain::rendered(Sample& sample, const DepthLaw& law, const
 {
   const double depth = sample.contact.depth;
   const double stiffest =
-    guard_.stiffnessShare() * std::min(stiffnessLimit(scene.damping), stiffestTurn(scene));
+    guard_.stiffnessShare() * std::min(stiffnessLimit(scene.damping), torqueStiffnessLimit(scene));
   const bool isOther = std::exchange(organ_, sample.organ) != sample.organ;
   const bool touched = std::exchange(touched_, depth > 0.0);
   const bool changed = std::exchange(version_, scene.version) != scene.version;
   rebase(law, depth, stiffest, changed || (isOther && touched));
+  followLean(sample, scene);
   resumeFraction();
   sample.response = depth > 0.0 ? law(depth) : Response{};
   Rendered felt = couple(law, depth - contactOffset_, stiffest);

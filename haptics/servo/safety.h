@@ -105,12 +105,13 @@ private:
   [[nodiscard]] Eigen::Vector3d rendered(Sample& sample, const DepthLaw& law, const Scene& scene,
     const TissueAt* tissue, TissueMemory* memory) noexcept;
   void rebase(const DepthLaw& law, double depth, double stiffest, bool changed) noexcept;
+  void followLean(const Sample& sample, const Scene& scene) noexcept;
   void resumeFraction() noexcept;
   [[nodiscard]] double highestNormalForce(const Scene& scene) const noexcept;
   [[nodiscard]] Eigen::Vector3d push(
     const Contact& contact, const Rendered& felt, const Scene& scene) noexcept;
-  [[nodiscard]] double stiffestTurn(const Scene& scene) const noexcept;
-  [[nodiscard]] Eigen::Vector3d turning(
+  [[nodiscard]] double torqueStiffnessLimit(const Scene& scene) const noexcept;
+  [[nodiscard]] Eigen::Vector3d renderedTorque(
     const Sample& sample, const Scene& scene, const TissueAt& tissue) const noexcept;
   [[nodiscard]] double renderedDamping(double wanted) const noexcept;
   [[nodiscard]] Eigen::Vector3d workspaceForce(const ToolPose& pose) noexcept;
@@ -160,11 +161,13 @@ private:
   int dropped_ = 0;        // poses in a row
 
   double contactOffset_ = 0.0; // depth at which contact is felt to begin [m]
-  double normalForce_ = 0.0;   // of the law through the coupling, last tick [N]
-  bool rebase_ = false;        // the force has to start in contact
-  std::uint64_t version_ = 0;  // of the scene, last tick
-  int organ_ = 0;              // of the sample, last tick
-  bool touched_ = false;       // it
+  double lean_ = 0.0;          // of that, what the tool became deeper by leaning [m]
+  Eigen::Vector3d axis_ = -Eigen::Vector3d::UnitZ(); // of the tool, last tick
+  double normalForce_ = 0.0;  // of the law through the coupling, last tick [N]
+  bool rebase_ = false;       // the force has to start in contact
+  std::uint64_t version_ = 0; // of the scene, last tick
+  int organ_ = 0;             // of the sample, last tick
+  bool touched_ = false;      // it
 
   Eigen::Vector3d shaped_ = Eigen::Vector3d::Zero(); // before gain, last tick [N]
   Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();   // last tick [N]

@@ -1,5 +1,5 @@
-// How stiff and how damped an arm may be rendered, and the end of its reach. The tick is in
-// safety.cpp.
+// How stiff and how damped an arm may be rendered, how it turns a hand, and the end of its reach.
+// The tick is in safety.cpp.
 
 #include "haptics/servo/safety.h"
 #include "haptics/servo/torque.h"
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace palp
 {
@@ -63,15 +64,15 @@ double SafetyChain::stiffnessLimit(double damping) const noexcept
 
 // Of the force, at which a lean of the tool is no stiffer than its wrist bears: were the torque
 // alone less, its force would give energy as the tool leans. [N/m]
-double SafetyChain::stiffestTurn(const Scene& scene) const noexcept
+double SafetyChain::torqueStiffnessLimit(const Scene& scene) const noexcept
 {
   const double reach = baseRadius(scene.law.tip());
-  return device_.maxTorque > 0.0 ? device_.maxTurning / (reach * reach)
+  return device_.maxTorque > 0.0 ? device_.maxAngularStiffness / (reach * reach)
                                  : std::numeric_limits<double>::infinity();
 }
 
 // as much of the tissue's torque as is sent of its force
-Eigen::Vector3d SafetyChain::turning(
+Eigen::Vector3d SafetyChain::renderedTorque(
   const Sample& sample, const Scene& scene, const TissueAt& tissue) const noexcept
 {
   const double whole = sample.contact.slope * tissue(sample.proxyDepth).force;
@@ -85,6 +86,28 @@ Eigen::Vector3d SafetyChain::turning(
   return size <= device_.maxTorque ? torque
     : std::isfinite(size)          ? Eigen::Vector3d(device_.maxTorque / size * torque)
                                    : Eigen::Vector3d::Zero();
+}
+
+// A hand that no torque answers leans the tool for nothing: by what the tool becomes deeper so, no
+// force rises, and what was lost as it became less deep does not come back. What it pushes along
+// is felt as ever.
+void SafetyChain::followLean(const Sample& sample, const Scene& scene) noexcept
+{
+  const double depth = sample.contact.depth;
+  const ToolPose before{ .apex = last_.apex, .axis = std::exchange(axis_, last_.axis) };
+  if (!(depth > 0.0))
+  {
+    lean_ = 0.0;
+    return;
+  }
+  if (device_.maxTorque > 0.0 || scene.surface == nullptr || before.axis == axis_)
+  {
+    return;
+  }
+  const double by = depth - findContact(scene, before).depth;
+  const double held = std::min(lean_, contactOffset_);
+  lean_ = std::max(0.0, held + by);
+  contactOffset_ = std::min(contactOffset_ + lean_ - held, depth);
 }
 
 Eigen::Vector3d SafetyChain::workspaceForce(const ToolPose& pose) noexcept

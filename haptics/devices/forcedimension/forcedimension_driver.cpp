@@ -84,8 +84,8 @@ constexpr const char* kLibrary = "libdrd.so.3";
 // of every arm with an active wrist: a quarter of the angular stiffness that its makers state, for
 // nobody has tried ours on one
 // @source  chai3d/chai3d src/devices/CDeltaDevices.cpp, of which Force Dimension is an author
-constexpr double kMaxTorque = 0.2;   // [N m]
-constexpr double kMaxTurning = 0.25; // [N m/rad]
+constexpr double kMaxTorque = 0.2;            // [N m]
+constexpr double kMaxAngularStiffness = 0.25; // [N m/rad]
 
 // arms of one name
 struct Family
@@ -146,7 +146,7 @@ public:
       .needsHoming = true,
       .maxForce = family_.maxForce,
       .maxTorque = turns_ ? kMaxTorque : 0.0,
-      .maxTurning = turns_ ? kMaxTurning : 0.0,
+      .maxAngularStiffness = turns_ ? kMaxAngularStiffness : 0.0,
       .damping = 0.2,
       .friction = 0.05,
       .handDamping = kGripDamping,

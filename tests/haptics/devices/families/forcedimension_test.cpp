@@ -92,7 +92,7 @@ TEST_F(ForceDimension, TorqueAndTurnAreInOneFrame)
   arm_->hasActiveWrist = true;
   const auto driver = openDriver(kName);
   EXPECT_EQ(driver->limits().maxTorque, 0.2); // of CDeltaDevices.cpp
-  EXPECT_LT(driver->limits().maxTurning, 1.0);
+  EXPECT_LT(driver->limits().maxAngularStiffness, 1.0);
   (void)driver->tick({ Vector3d::Zero(), torque }, 1.0_ms, sample_);
   EXPECT_EQ(told(), Vector3d::Zero()) << "before it has said that it is homed";
   const Eigen::Quaterniond before = sample_.orientation;
