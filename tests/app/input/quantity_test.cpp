@@ -46,6 +46,29 @@ TEST(Quantity, RefusesABareNumberWithTheFix)
     "--young: '50' has no unit; write 50kPa (kPa, Pa, MPa, GPa)");
 }
 
+// else the fix is the next refusal
+TEST(Quantity, SuggestsTheUnitThatFitsItsRange)
+{
+  const auto said = [](std::string_view text, Quantity kind, const Bounds& bounds)
+  {
+    try
+    {
+      (void)parseWithin(text, kind, bounds, "--it");
+    }
+    catch (const Error& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const Bounds rates{ 1000.0, 4000.0, "1kHz to 4kHz" };
+  EXPECT_NE(said("5", Quantity::Time, { 1e-5, 0.01, "0.01ms to 10ms" }).find("write 5ms"),
+    std::string::npos);
+  EXPECT_NE(said("1000", Quantity::Frequency, rates).find("write 1000Hz"), std::string::npos);
+  EXPECT_NE(said("2", Quantity::Frequency, rates).find("write 2kHz"), std::string::npos);
+  EXPECT_NE(said("9", Quantity::Frequency, rates).find("has no unit"), std::string::npos);
+}
+
 TEST(Quantity, ReadsSpacesAndTheSignsThatPeopleWrite)
 {
   EXPECT_EQ(parseQuantity(" 10 mm ", Quantity::Length, "r"), 0.01);
