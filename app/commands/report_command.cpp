@@ -204,7 +204,7 @@ void addReportCommand(CLI::App& app, const Renderer* pictures)
   CLI::App* command = app.add_subcommand("report",
     "Measure error against run time and the paper's claims here; one page, with its data");
   command->add_option("--out", options->out, "Folder for report.html, CSV and JSON")->required();
-  command->add_flag("--quick", options->quick, "A minute, not a quarter of an hour");
+  command->add_flag("--quick", options->quick, "Two minutes, not half an hour");
   command->add_option("NAME", options->parts, "Which parts; all if none")
     ->check(CLI::IsMember(namesOfParts()));
   command->add_flag("--resume", options->resume, "Go on with what --out holds of this report");

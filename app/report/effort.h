@@ -14,7 +14,7 @@ struct Interrupted
 /// How much work a part may do, and whom it tells.
 struct Effort
 {
-  bool quick = false; ///< a minute for the whole report, not a quarter of an hour
+  bool quick = false; ///< two minutes for the whole report, not half an hour
   std::stop_token stop;
   std::function<void(double)> tell; ///< fraction of the part that is done, 0 to 1
 

@@ -241,7 +241,7 @@ nlohmann::json runBench(const Effort& effort)
 
 Section scaling(const Effort& effort)
 {
-  const int runs = effort.repeats();
+  const int runs = effort.quick ? 1 : effort.repeats();
   std::map<Key, Repeated> all;
   std::vector<double> sweeps;
   for (int run = 0; run < runs; ++run)
@@ -273,10 +273,9 @@ Section scaling(const Effort& effort)
   section.text = { "The normalizer S of this run, a scalar sweep over 10,000 points, took " +
     shown(sweep) +
     " \u00b5s; column median_per_S states times as multiples of it, by which "
-    "machines compare. Every figure is the median of " +
-    std::to_string(runs) +
-    " processes: where the loader puts a program "
-    "changes a step of microseconds by some 10 per cent." };
+    "machines compare. Every figure is " +
+    (runs == 1 ? "of one process" : "the median of " + std::to_string(runs) + " processes") +
+    ": where the loader puts a program changes a step of microseconds by some 10 per cent." };
   section.figures.push_back(scalingFigure());
   return section;
 }

@@ -132,7 +132,7 @@ TEST(Surface, FarSideHasNoGapsBetweenItsTriangles)
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   int missed = 0;
-  for (int pose = 0; pose < (test::kSanitized ? 4 : 200); ++pose)
+  for (int pose = 0; pose < (test::kSanitized ? 4 : 60); ++pose)
   {
     const Eigen::Quaterniond turn =
       Eigen::Quaterniond(any(random), any(random), any(random), any(random)).normalized();
@@ -194,7 +194,7 @@ TEST_P(TJoint, SliverOfRoundingHasNoSayInNormalsAndSides)
   const double slope = GetParam();
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
-  for (int pose = 0; pose < (test::kSanitized ? 4 : 1000); ++pose)
+  for (int pose = 0; pose < (test::kSanitized ? 4 : 200); ++pose)
   {
     const Eigen::Quaterniond turn =
       Eigen::Quaterniond(any(random), any(random), any(random), any(random)).normalized();

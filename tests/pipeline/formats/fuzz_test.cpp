@@ -56,8 +56,8 @@ TEST_P(Fuzz, EndsAsASurfaceOrATrueSentence)
   constexpr double time = kSlower * 4.0;     // of palp-read for a small file [s]
 #ifdef PALP_SLOW
   const int count = fuzzCount();
-#else // the sanitizer, which takes four times as long for each, sees the first of all
-  const int count = fuzzCount(kSanitized ? 2500 : 10'000);
+#else // the sanitizer, which takes many times as long for each, sees the first of all
+  const int count = fuzzCount(kSanitized ? 1200 : 10'000);
 #endif
   expectGoodFates(kind, fuzz(kind, count, memory, time));
 }
