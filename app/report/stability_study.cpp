@@ -2,6 +2,7 @@
 
 #include "app/input/tip_text.h"
 #include "haptics/files/csv_text.h"
+#include "haptics/files/fixed_text.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -128,8 +129,8 @@ std::string stabilitySummary(const std::vector<JudgedCase>& cases)
   {
     out << name << '\n';
   }
-  out << "Most energy that the chain gave to a hand: "
-      << shortest(units::toMicrojoules(std::max(0.0, -worst))) << " uJ.\n";
+  out << "Most energy that the chain gave to a hand: " << fixed(1e3 * std::max(0.0, -worst), 1)
+      << " mJ.\n";
   return out.str();
 }
 

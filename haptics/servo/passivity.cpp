@@ -7,7 +7,7 @@ namespace palp
 namespace
 {
 
-// a coarse encoder makes the observed energy too pessimistic without end
+// a coarse encoder makes what is taken seem less without end
 constexpr double kLargestDebt = 1e-3; // [J]
 // what damping has taken beyond need is no credit for long
 constexpr double kLargestCredit = 1e-4; // [J]
@@ -39,18 +39,36 @@ Wrench PassivityController::acting(double dt, double delay) const noexcept
   return sum;
 }
 
+// Within the step of the encoder: an arm that has just come into a step is at most one tick's way
+// past its border. Half a step there, as often as it goes to and fro under a stiff force, adds up.
+Eigen::Vector3d PassivityController::within(const PortTick& tick) const noexcept
+{
+  const Eigen::Array3d read = tick.position;
+  const Eigen::Array3d half = Eigen::Array3d::Constant(0.5 * quantum_);
+  const Eigen::Array3d way = tick.dt * tick.velocity;
+  const Eigen::Array3d jump = read - read_.array();
+  const Eigen::Array3d come = read - jump.sign() * (half - 0.5 * way.abs()).max(0.0);
+  const Eigen::Array3d stayed = (place_.array() + way).max(read - half).min(read + half);
+  return (jump.abs() > half).select(come, stayed);
+}
+
 Eigen::Vector3d PassivityController::damp(const PortTick& tick) noexcept
 {
   lengths_[newest_] = tick.dt;
-  const Eigen::Vector3d travel = tick.position - position_;
+  const Eigen::Vector3d travel = tick.position - read_;
+  const Eigen::Vector3d place = within(tick);
   const Wrench acted = acting(tick.dt, tick.delay);
-  const double taken = -acted.force.dot(travel) - acted.torque.dot(axis_.cross(tick.axis));
+  const double turned = acted.torque.dot(axis_.cross(tick.axis));
+  energy_ -= acted.force.dot(place - place_) + turned;
+  // by what was read, as the springs answered it: where an arm chatters over a step, that is the
+  // more cautious
+  const double taken = -acted.force.dot(travel) - turned;
   const double lost =
     mechanism_.damping * travel.squaredNorm() / tick.dt + mechanism_.friction * travel.norm();
-  energy_ += taken;
   balance_ =
     std::clamp(balance_ + taken + lost, tick.stored - kLargestDebt, tick.stored + kLargestCredit);
-  position_ = tick.position;
+  place_ = place;
+  read_ = tick.position;
   axis_ = tick.axis;
   newest_ = (newest_ + 1) % kForces;
   wrenches_[newest_] = {};
@@ -71,7 +89,8 @@ void PassivityController::restart(const ToolPose& pose) noexcept
   balance_ = 0.0;
   wrenches_.fill({});
   lengths_.fill(0.0);
-  position_ = pose.apex;
+  place_ = pose.apex;
+  read_ = pose.apex;
   axis_ = pose.axis;
 }
 

@@ -35,7 +35,8 @@ struct PortTick
 ///
 /// Passivity observer: each wrench that really went to the device, times the motion and turn on
 /// which it acted: those of a delay later, split between ticks. For a force that is held over a
-/// tick this is the energy at the port, also between the samples. Passivity controller: a variable
+/// tick this is the energy at the port, also between the samples, to within a step of the encoder
+/// times the force. Passivity controller: a variable
 /// damper that dissipates what is missing, after what the mechanism dissipates by itself.
 ///
 /// @source  Hannaford, Ryu, "Time-domain passivity control of haptic interfaces", IEEE TRA 18(1),
@@ -49,6 +50,7 @@ public:
   explicit PassivityController(
     double maxDamping, double quantum = 0.0, const Dissipation& mechanism = {}) noexcept
     : maxDamping_(maxDamping)
+    , quantum_(quantum)
     , atRest_(std::min(kAtRest, quantum / kTick))
     , mechanism_(mechanism)
   {
@@ -97,14 +99,17 @@ private:
   static constexpr double kTick = 1e-3;       // in which one step of a fine one is noise [s]
   static constexpr std::size_t kForces = 128; // 32 ms at 4 kHz
 
+  [[nodiscard]] Eigen::Vector3d within(const PortTick& tick) const noexcept;
   [[nodiscard]] Wrench acting(double dt, double delay) const noexcept;
 
   double maxDamping_;
-  double atRest_; // [m/s]
+  double quantum_; // [m]
+  double atRest_;  // [m/s]
   Dissipation mechanism_;
   double energy_ = 0.0;
   double balance_ = 0.0; // the same with what the mechanism dissipates, between its bounds [J]
-  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d place_ = Eigen::Vector3d::Zero(); // as well as it is known [m]
+  Eigen::Vector3d read_ = Eigen::Vector3d::Zero();  // of the encoder [m]
   Eigen::Vector3d axis_ = -Eigen::Vector3d::UnitZ();
   std::array<Wrench, kForces> wrenches_{};
   std::array<double, kForces> lengths_{}; // from the pose of each force to the next [s]

@@ -280,14 +280,17 @@ ArmResult simulateArm(const ArmCase& hand, bool chain)
         std::clamp(arm.drawnSpeed * (time - kPressing), 0.0, arm.scene != nullptr ? kDrawn : 0.0);
       const Vector3d target = from + drawn * Vector3d::UnitX() +
         std::min(kGap + arm.handDepth, arm.startSpeed * time) * inward;
-      while (!onTheWay.empty() && onTheWay.front().acts <= time + 1e-9)
-      {
-        force = onTheWay.front().force;
-        onTheWay.pop_front();
-      }
       const double yields =
         std::clamp((kThrough - geometry.depth(state.apex)) / kYield, -kHolds, 1.0);
-      state.advance(arm, target, yields * push, force, step);
+      double done = 0.0; // of this step [s], for a force acts from its very moment on
+      for (; !onTheWay.empty() && onTheWay.front().acts < time + step; onTheWay.pop_front())
+      {
+        const double until = std::clamp(onTheWay.front().acts - time, done, step);
+        state.advance(arm, target, yields * push, force, until - done);
+        done = until;
+        force = onTheWay.front().force;
+      }
+      state.advance(arm, target, yields * push, force, step - done);
       result.energy = std::min(result.energy, state.port + state.lost);
       result.peakForce = std::max(result.peakForce, force.norm());
       seeSpeed(result, time / arm.duration, state.velocity.norm());

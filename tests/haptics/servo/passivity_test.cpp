@@ -1,5 +1,6 @@
 #include "haptics/servo/passivity.h"
 
+#include "haptics/devices/velocity_estimator.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -189,6 +190,54 @@ TEST(PassivityController, ObservesTheEnergyOfThePlantHoweverLateItsForcesAre)
   LatePlant unknowing{ .delay = 4.0_ms }; // as if every force acted at once
   unknowing.press(2.0);
   EXPECT_GE(unknowing.worst, 1e-3);
+}
+
+// how far what is observed strays from the energy of a motion that is known, A sin(w t) about a
+// place, behind an encoder whose steps are the rows of a spring
+double strayed(double quantum, double amplitude, double omega, double place)
+{
+  constexpr double kStiffness = 2000.0;
+  PassivityController controller(0.0, quantum);
+  VelocityEstimator velocity(quantum);
+  const auto at = [&](double time) { return place + amplitude * std::sin(omega * time); };
+  const auto seen = [&](double x) { return along(std::round(x / quantum) * quantum); };
+  controller.restart({ seen(at(0.0)) });
+  double port = 0.0;
+  double force = 0.0;
+  double worst = 0.0;
+  for (int tick = 0; tick < 40'000; ++tick)
+  {
+    const double now = tick * 1.0_ms;
+    port -= tick > 0 ? force * (at(now) - at(now - 1.0_ms)) : 0.0;
+    const Vector3d position = seen(at(now));
+    (void)controller.damp(
+      { .position = position, .velocity = velocity(position, 1.0_ms), .dt = 1.0_ms });
+    force = -kStiffness * position.x();
+    controller.sent(along(force));
+    worst = std::max(worst, std::abs(controller.energy() - port));
+  }
+  return worst / (quantum * kStiffness * (std::abs(place) + amplitude + quantum));
+}
+
+// half a step times the change of force at each crossing of a border is what the reading alone
+// gives
+TEST(PassivityController, StraysLittleWhereAnArmGoesToAndFroOverTheStepsOfItsEncoder)
+{
+  constexpr double kFinest = 20e-6;
+  for (const double steps : { 0.1, 0.4, 0.7, 2.0, 7.3, 40.0 }) // of the encoder, the amplitude
+  {
+    for (const double frequency : { 0.2, 1.0, 5.0, 20.0 })
+    {
+      for (const double place : { 0.5, 0.8, 10.5, 11.0 }) // in steps
+      {
+        const double crossings = 40.0 * frequency * std::max(2.0, 4.0 * steps);
+        EXPECT_LE(
+          strayed(kFinest, steps * kFinest, 2.0 * std::numbers::pi * frequency, place * kFinest),
+          1.0 + 0.05 * crossings)
+          << steps << " " << frequency << " " << place;
+      }
+    }
+  }
 }
 
 TEST(PassivityController, CalmsALateWallThatNoBoundWasAskedFor)
