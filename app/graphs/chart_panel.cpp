@@ -52,6 +52,7 @@ ChartPanel::ChartPanel(const QString& name, QWidget* parent)
                          "Click at a name: hide its curve or show it"));
   canvas_->setToolTipDuration(8000);
   window_->GetInteractor()->SetInteractorStyle(style_);
+  window_->GetInteractor()->RemoveObservers(vtkCommand::CharEvent); // 3: stereo, e: the end
   window_->GetInteractor()->AddObserver(vtkCommand::LeaveEvent, this, &ChartPanel::leave);
   row_->addStretch(1);
   connect(addButton(*row_, 1, tr("Fit"), "fit", tr("Let the axes follow the data")),

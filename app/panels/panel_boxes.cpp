@@ -4,6 +4,7 @@
 #include "haptics/units.h"
 #include "pipeline/view/appearance.h"
 
+#include <QDialog>
 #include <QGridLayout>
 #include <QGroupBox>
 #include <QKeyEvent>
@@ -305,6 +306,10 @@ void showReason(QLabel& row, QWidget& field, const QString& why)
   markRefused(field, !why.isEmpty());
   row.setText(why);
   row.setVisible(!why.isEmpty());
+  if (auto* dialog = qobject_cast<QDialog*>(row.window()))
+  {
+    dialog->adjustSize(); // which a text of several lines does not by itself
+  }
 }
 
 void setLabel(const QGridLayout& rows, QWidget* field, const QString& label)

@@ -291,6 +291,11 @@ void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& 
   }
 }
 
+bool isUneven(const SceneBody& body)
+{
+  return !body.nodules.empty() || body.stiffness || std::ranges::any_of(body.organs, isUneven);
+}
+
 void feelTissue(Scene& scene, const SceneBody& body)
 {
   const ForceLaw& law = scene.law;
@@ -306,6 +311,14 @@ void feelTissue(Scene& scene, const SceneBody& body)
   scene.series = seriesBodyOf(body.compliance, law);
   if (own.mode != LawMode::Corrected || !own.coatings.empty())
   {
+    if (isUneven(body))
+    {
+      throw Error(ErrorCode::BadValue,
+        "law: " + body.name + " has nodules or a map of Young's modulus inside" +
+          ", which the corrected law without coatings feels, and no other; keep that, or take out "
+          "what "
+          "it has");
+    }
     return;
   }
   try

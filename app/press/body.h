@@ -79,9 +79,12 @@ void setTissues(Scene& scene, const std::vector<OrganPlan>& organs);
 /// @throws Error  as feelTissue
 void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& organs);
 
-/// Puts the nodules of a body, its map and its compliance into a scene, felt by its law; none where
-/// there are none, or the law does not know them.
-/// @throws Error  as embedNodules, embedStiffness and ForceLaw::checkBody
+/// Whether the stiffness of a body, or of an organ of it, differs from place to place.
+[[nodiscard]] bool isUneven(const SceneBody& body);
+
+/// Puts the nodules of a body, its map and its compliance into a scene, felt by its law.
+/// @throws Error  BadValue: an uneven body under a law that knows it even; as embedNodules,
+///                embedStiffness and ForceLaw::checkBody
 void feelTissue(Scene& scene, const SceneBody& body);
 
 /// The stiffness of a body with a map, as a law feels it; null: it has none.

@@ -23,6 +23,16 @@ bool restsAt(const Sample& before, const Sample& now)
     (before.pose.axis - now.pose.axis).norm() < kAngle;
 }
 
+// a search alone is not rated, what comes after it is
+ScenePlan ratedOnceGraded(ScenePlan plan)
+{
+  if (plan.training && plan.training->marks)
+  {
+    plan.validity = plan.press.tissue.options.rated = true;
+  }
+  return plan;
+}
+
 // what is recorded of a press that has not begun
 Recording startOf(const ScenePlan& plan, const SceneBody& body, BuildTrace& trace)
 {
@@ -45,7 +55,7 @@ Recording startOf(const ScenePlan& plan, const SceneBody& body, BuildTrace& trac
 } // namespace
 
 Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* stop)
-  : plan_(std::move(plan))
+  : plan_(ratedOnceGraded(std::move(plan)))
   , servoOptions_{ .period = std::chrono::duration_cast<std::chrono::nanoseconds>(
                      std::chrono::duration<double>(plan_.servoPeriod)),
     .history = plan_.records(),
@@ -73,9 +83,24 @@ Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* sto
     });
 }
 
+ForceLaw Session::knowing(const ForceLaw& law) const
+{
+  TissueOptions tissue = optionsOf(law, plan_.validity);
+  tissue.options.mode = LawMode::Corrected;
+  return law.settings().mode == LawMode::Corrected ? law : tissue.law();
+}
+
 void Session::open(SceneBody body, std::vector<OrganPlan> organs)
 {
   Scene scene = nextScene();
+  if (isUneven(body))
+  {
+    scene.law = knowing(scene.law);
+    for (OrganPlan& organ : organs)
+    {
+      organ.press.tissue.options.mode = LawMode::Corrected;
+    }
+  }
   scene.others.clear();
   scene.rule = organs.empty() ? scene.rule : organs.front().press.contact;
   setTissues(scene, organs);

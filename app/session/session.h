@@ -45,7 +45,9 @@ public:
     return plan_;
   }
 
-  /// Replaces the body, or all organs; the device stays, and of one body the tissue.
+  /// Replaces the body, or all organs; the device stays, and of one body the tissue. Where the
+  /// stiffness of the new one differs from place to place, the law is then the corrected one, which
+  /// alone feels it.
   /// @param organs  that the body is of, with their tissues, one tool and one kind of law; none:
   /// one
   /// @throws Error  as feelTissue, useDevice; the old body then stays
@@ -298,6 +300,8 @@ private:
   static constexpr double kForgiving = 0.05; // until the servo has heard of an order, at most [s]
 
   [[nodiscard]] Scene nextScene() const;
+  // a law in the corrected mode, which alone feels what is inside
+  [[nodiscard]] ForceLaw knowing(const ForceLaw& law) const;
   void use(Scene scene);
   void drain(const SceneBody& body, const std::function<void(const Sample&)>& each);
   [[nodiscard]] Hand& first() noexcept

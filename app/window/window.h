@@ -132,7 +132,7 @@ private:
   void addMarks(QMenu& menu);
   void addOpening(QMenu& file);
   void addRecentFiles(QMenu& menu);
-  bool openBody(const std::vector<MeshSource>& meshes, const std::vector<OrganPlan>& organs = {});
+  bool openBody(const ScenePlan& plan);
   bool openLabels(const MeshSource& image, std::vector<FileOrgan> labels);
   bool openAsked(MeshSource source);
   [[nodiscard]] FileOrgans labelsIn(const QString& file);
@@ -192,6 +192,7 @@ private:
   [[nodiscard]] bool isFree();
   void markPlace();
   void finishTraining();
+  void takeNodulesOut();
   void askSheet();
   [[nodiscard]] const Session::Take* lastSearch() const;
   void makePressList();

@@ -108,6 +108,11 @@ void Window::addOpening(QMenu& file)
         loadPresses(folder);
       }
     });
+  QAction* restore =
+    file.addAction(tr("Restore &presses of before"), this, [this] { restorePresses(); });
+  restore->setObjectName("restoreAction");
+  connect(&file, &QMenu::aboutToShow, restore,
+    [=, this] { restore->setEnabled(autosave_ != nullptr && !autosave_->left().empty()); });
   addRecentFiles(file);
 }
 
@@ -180,25 +185,35 @@ void Window::say(const QString& what)
   message_->tell(what);
 }
 
-// false: given up
-bool Window::openBody(const std::vector<MeshSource>& meshes, const std::vector<OrganPlan>& organs)
+// its meshes, organs and, of a search that was graded, nodules; false: given up
+bool Window::openBody(const ScenePlan& plan)
 {
   if (!mayDropMap(tr("Clear it"), [] {}))
   {
     return false;
   }
   std::optional<SceneBody> body =
-    inBackground<SceneBody>(tr("Reading %1").arg(fileName(meshes.front())),
-      [plan = ScenePlan{ .meshes = meshes, .organs = organs }] { return loadLiveBodies(plan); });
+    inBackground<SceneBody>(tr("Reading %1").arg(fileName(plan.meshes.front())),
+      [plan]
+      {
+        SceneBody read = loadLiveBodies(plan);
+        read.training ? revealNodules(read) : void();
+        return read;
+      });
   if (!body)
   {
     return false;
   }
   takeSamples();
-  session_.open(*std::move(body), organs);
+  const LawMode before = tissueInUse().law.settings().mode;
+  session_.open(*std::move(body), plan.organs);
   clearCharts();
   showBody();
   pressBar_->clearPlace();
+  if (tissueInUse().law.settings().mode != before)
+  {
+    say(tr("The law is Corrected now, which alone feels what is inside"));
+  }
   return true;
 }
 
@@ -241,7 +256,8 @@ bool Window::openAsked(MeshSource source)
   {
     try
     {
-      isAsked = opened = organs.empty() ? openBody({ source }) : openLabels(source, organs);
+      isAsked = opened =
+        organs.empty() ? openBody({ .meshes = { source } }) : openLabels(source, organs);
     }
     catch (const Error& error)
     {

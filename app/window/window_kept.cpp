@@ -80,7 +80,7 @@ void Window::discardPresses()
   const std::size_t left = autosave_->left().size();
   if (left == 0)
   {
-    message_->warn(tr("None is left to discard: another window has restored them"));
+    message_->warn(tr("None is left to discard: another window has them"));
     return;
   }
   const QString what = QString::fromStdString(counted(left, "press", "presses"));
@@ -152,6 +152,11 @@ void Window::restorePresses()
 {
   if (!isFree())
   {
+    return;
+  }
+  if (autosave_->left().empty())
+  {
+    message_->warn(tr("None is left to restore: another window has them"));
     return;
   }
   endReview();

@@ -126,7 +126,7 @@ void Window::openOrgan(const QString& file)
     throw Error(ErrorCode::BadFile,
       file.toStdString() + ": is of another surface than what is open; open that first");
   }
-  if (openBody(meshes, session_.organs()))
+  if (openBody({ .meshes = meshes, .organs = session_.organs() }))
   {
     say(tr("%1 gives way as a whole, by %2")
           .arg(QString::fromStdString(session_.body().name), QFileInfo(file).fileName()));
@@ -154,7 +154,7 @@ bool Window::openFiles(const QStringList& files)
       {
         openFile(QString::fromStdString(parts.front().file.string()));
       }
-      else if (!parts.empty() && openBody(parts))
+      else if (!parts.empty() && openBody({ .meshes = parts }))
       {
         say(tr("Opened %1 as one body").arg(QString::fromStdString(session_.body().name)));
       }
@@ -169,7 +169,11 @@ bool Window::openFiles(const QStringList& files)
 void Window::openScene(const QString& file)
 {
   const ScenePlan plan = readScene(file.toStdString());
-  if (!openBody(plan.meshes, plan.organs))
+  const bool wasGraded = plan.training && plan.training->marks;
+  if (!openBody({ .meshes = plan.meshes,
+        .organs = plan.organs,
+        .press = plan.press,
+        .training = wasGraded ? plan.training : std::nullopt }))
   {
     return;
   }
@@ -194,7 +198,7 @@ void Window::openScene(const QString& file)
   {
     lookFrom(*plan.camera);
   }
-  if (plan.training && !plan.training->marks)
+  if (plan.training && !wasGraded)
   {
     showTraining();
     startTraining(*plan.training);

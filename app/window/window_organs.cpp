@@ -33,7 +33,7 @@ void Window::showBody()
   makeOrganList();
   showOrgans();
   realism_.isOn() ? setRealistic(true) : void(); // as large as this body
-  session_.organs().empty() ? void() : panel_->setScene(tissueInUse());
+  panel_->setScene(tissueInUse());
   fittedTo_ = std::pair(0, 0);
   queued_.clear();
   dropMap();
@@ -54,6 +54,7 @@ void Window::showInside()
                    : void();
   hasMap ? void(inside << tr("a map of stiffness")) : void();
   panel_->setInside(inside.join(", "));
+  findChild<QAction*>("noNodulesAction")->setEnabled(!nodules.empty());
   std::vector<Balls::Ball> balls = marked_;
   if (marked_.empty() && view_.look().isTranslucent)
   {
@@ -76,6 +77,7 @@ void Window::makeOrganList()
       [this]
       {
         panel_->setScene(tissueInUse());
+        showPictured();
         openSupports();
       });
   }
@@ -113,7 +115,7 @@ bool Window::openLabels(const MeshSource& image, std::vector<FileOrgan> labels)
     organ.role = static_cast<OrganRole>(role - kOrganRoles.begin());
     looks[i].tissue != nullptr ? organ.press.tissue.take(looks[i].tissue) : void();
   }
-  return openBody(meshes, organs);
+  return openBody({ .meshes = meshes, .organs = organs });
 }
 
 // as the session has them: in the list, below the pointer, in the picture

@@ -123,7 +123,7 @@ void Window::makeEditMenu()
           const auto end = session_.organs().empty() ? meshes.end() : meshes.begin() + first + 1;
           std::for_each(
             meshes.begin() + first, end, [&](MeshSource& mesh) { mesh.stiffness = *map; });
-          attempt([&] { openBody(meshes, session_.organs()); });
+          attempt([&] { openBody({ .meshes = meshes, .organs = session_.organs() }); });
         }
       })
     ->setObjectName("tissueMapAction");

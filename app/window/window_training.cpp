@@ -60,6 +60,7 @@ void Window::makeTraining()
   };
   add(tr("&Mark this place"), "markAction", &Window::markPlace)->setShortcut(Qt::Key_M);
   add(tr("&Finish and grade"), "gradeAction", &Window::finishTraining);
+  add(tr("&Take the nodules out"), "noNodulesAction", &Window::takeNodulesOut);
 }
 
 // made when it is first asked for
@@ -101,7 +102,6 @@ void Window::startTraining(const TrainingPlan& plan)
       session_.train(plan);
       clearCharts();
       undo_.clear(); // of another tool or tissue
-      panel_->setScene(tissueInUse());
       takesKept_ = session_.earlier().size();
       showBody();
       beginSearch();
@@ -174,17 +174,19 @@ void Window::finishTraining()
     {
       letGo();
       takeSamples();
+      const std::size_t before = session_.earlier().size();
       session_.finishTraining(search_->marks);
       search_.reset();
       lockForSearch(false);
       clearCharts();
       takesKept_ = session_.earlier().size();
-      const Session::Take* take = lastSearch();
-      if (take == nullptr)
+      if (takesKept_ == before) // nothing was touched
       {
         training_->showResult(nullptr);
+        takeNodulesOut();
         return;
       }
+      const Session::Take* take = lastSearch();
       const Recording& recording = take->recording;
       const ScoreSheet sheet =
         scoreSheetOf(take->body.name, recording.scene, recording.samples, *take->body.training);
@@ -195,6 +197,17 @@ void Window::finishTraining()
       say(QString::fromStdString(summaryOf(sheet.grade)) +
         tr(": green nodules were found, yellow ones missed; black marks are false"));
     });
+}
+
+// those of a search or of a scene
+void Window::takeNodulesOut()
+{
+  std::vector<MeshSource> meshes = session_.body().sources;
+  std::ranges::for_each(meshes, [](MeshSource& mesh) { mesh.nodules.clear(); });
+  if (isFree() && attempt([&] { openBody({ .meshes = meshes, .organs = session_.organs() }); }))
+  {
+    say(tr("The nodules are out of %1").arg(QString::fromStdString(session_.body().name)));
+  }
 }
 
 const Session::Take* Window::lastSearch() const

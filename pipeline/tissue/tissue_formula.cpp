@@ -3,8 +3,10 @@
 #include "haptics/error.h"
 #include "haptics/units.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <regex>
 #include <sstream>
 #include <vtkFunctionParser.h>
 #include <vtkObject.h>
@@ -16,6 +18,7 @@ namespace
 
 using namespace units::literals;
 
+constexpr std::array kNames{ "x", "y", "z", "r" };
 constexpr double kSoftest = 1.0; // [Pa], as makeMaterial takes it
 constexpr double kStiffest = 1e10;
 
@@ -30,9 +33,16 @@ TissueFormula::TissueFormula(const std::string& text)
     throw Error(ErrorCode::BadValue,
       "stiffness: '" + text + "': log is the natural or the decimal logarithm; write ln or log10");
   }
-  for (const char* name : { "x", "y", "z", "r" })
+  // those alone that it has: of each that is set VTK counts a global time on, which threads contend
+  // for
+  for (std::size_t i = 0; i < kNames.size(); ++i)
   {
-    parser_->SetScalarVariableValue(name, 1.0);
+    const std::string alone = std::string("(^|[^a-zA-Z_])") + kNames[i] + "($|[^a-zA-Z0-9_])";
+    if (std::regex_search(text, std::regex(alone)))
+    {
+      parser_->SetScalarVariableValue(kNames[i], 1.0);
+      places_.push_back(i);
+    }
   }
   parser_->ReplaceInvalidValuesOn(); // else VTK prints what it finds, in terms that are no number
   // beyond what any term can mend, so that the value is refused and not a term of it made up
@@ -55,10 +65,11 @@ TissueFormula::TissueFormula(const std::string& text)
 double TissueFormula::operator()(const Eigen::Vector3d& position) const
 {
   const Eigen::Vector3d place = units::toMillimeters(1.0) * position;
-  parser_->SetScalarVariableValue(0, place.x());
-  parser_->SetScalarVariableValue(1, place.y());
-  parser_->SetScalarVariableValue(2, place.z());
-  parser_->SetScalarVariableValue(3, place.head<2>().norm());
+  const std::array values{ place.x(), place.y(), place.z(), place.head<2>().norm() };
+  for (std::size_t i = 0; i < places_.size(); ++i)
+  {
+    parser_->SetScalarVariableValue(static_cast<int>(i), values[places_[i]]);
+  }
   const double value = parser_->GetScalarResult() * 1.0_kPa;
   if (!(value >= kSoftest && value <= kStiffest))
   {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <string>
+#include <vector>
 
 class vtkFunctionParser;
 
@@ -25,6 +26,7 @@ public:
 private:
   std::string text_;
   std::shared_ptr<vtkFunctionParser> parser_;
+  std::vector<std::size_t> places_; // of its variables among the names
 };
 
 } // namespace palp

@@ -59,6 +59,16 @@ protected:
   }
 };
 
+// the toolkit's own keys: 3 draws for two eyes, e and q end, w draws wires
+TEST_F(WindowCharts, StayAsTheyAreWhateverIsTypedIntoThem)
+{
+  auto* time = canvas("timeChart");
+  QTest::mouseClick(time, Qt::LeftButton);
+  QTest::keyClicks(time, "3eqwsfrpjtu");
+  EXPECT_EQ(time->renderWindow()->GetStereoRender(), 0);
+  EXPECT_TRUE(window_->isVisible());
+}
+
 TEST_F(WindowCharts, AreZoomedByTheWheelAndFitAgain)
 {
   press(100);

@@ -4,6 +4,7 @@
 
 #include <QDialog>
 #include <QImage>
+#include <QLabel>
 #include <QPushButton>
 #include <QRadioButton>
 
@@ -113,6 +114,30 @@ protected:
 };
 
 // the block has one stiffness on its faces, by the paper's law: of the color of the map's end
+TEST_F(MapTest, ARefusalInItsDialogIsReadWhole)
+{
+  QTimer::singleShot(0, window_.get(),
+    [&]
+    {
+      auto* dialog = window_->findChild<QDialog*>("mapDialog");
+      ASSERT_NE(dialog, nullptr);
+      type("mapDepth", "5 kPa");
+      type("mapSpacing", "1000 mm");
+      int refusals = 0;
+      for (const QLabel* label : dialog->findChildren<QLabel*>())
+      {
+        if (label->isVisible() && label->wordWrap() && label->text().contains("still in use"))
+        {
+          EXPECT_GE(label->height(), label->heightForWidth(label->width()));
+          ++refusals;
+        }
+      }
+      EXPECT_EQ(refusals, 2);
+      dialog->reject();
+    });
+  action("mapAction")->trigger();
+}
+
 TEST_F(MapTest, ColorsTheBodyAndGoesAndComes)
 {
   const int plain = countOf(isReddish);

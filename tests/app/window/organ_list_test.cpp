@@ -1,3 +1,4 @@
+#include "app/graphs/chart_panel.h"
 #include "app/organs/organ_list.h"
 #include "app/shell/theme.h"
 #include "haptics/units.h"
@@ -13,7 +14,9 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <vtkPlot.h>
 #include <vtkPolyData.h>
+#include <vtkTable.h>
 
 namespace palp
 {
@@ -248,6 +251,25 @@ TEST_F(OrganListTest, EachOrganHasATissueWhichThePanelShowsAndEdits)
   EXPECT_EQ(session_->recording().scene.law.material().youngModulus, hcc.material.youngModulus);
   QTest::keyClick(window_.get(), Qt::Key_Z, Qt::ControlModifier);
   EXPECT_NE(session_->organs()[0].press.tissue.young, hcc.material.youngModulus);
+}
+
+TEST_F(OrganListTest, TheModelInTheChartIsThatOfTheOrganInThePanel)
+{
+  choose("organRole1", "Pressed");
+  const auto model = [this]
+  {
+    const auto* canvas = window_->findChild<QVTKOpenGLNativeWidget*>("depthChart");
+    vtkPalpChart* chart = qobject_cast<ChartPanel*>(canvas->parentWidget())->charts().at(0);
+    vtkTable* curve = chart->GetPlot(0)->GetInput();
+    return curve->GetValue(curve->GetNumberOfRows() - 1, 1).ToDouble(); // [N] at the deepest
+  };
+  clickOrgan(1);
+  type("young", "60");
+  const double stiff = model();
+  clickOrgan(0); // of 6 kPa
+  EXPECT_NEAR(model(), 0.1 * stiff, 0.01 * stiff);
+  clickOrgan(1);
+  EXPECT_NEAR(model(), stiff, 0.01 * stiff);
 }
 
 TEST_F(OrganListTest, AnotherBodyTakesTheirPlace)

@@ -66,6 +66,17 @@ TEST_F(RestoredPresses, AreNotSaidToBeDiscardedWhereAnotherWindowHasThem)
   EXPECT_TRUE(other.has(1));
 }
 
+TEST_F(RestoredPresses, AreInTheMenuWhenTheirOfferIsGone)
+{
+  auto* restore = window_->findChild<QAction*>("restoreAction");
+  window_->findChild<MessageBar*>()->tell("something else");
+  restore->trigger();
+  EXPECT_TRUE(
+    QTest::qWaitFor([&] { return session_->presses().presses().size() == 2; }, kPatience));
+  restore->trigger();
+  EXPECT_TRUE(said().startsWith("None is left to restore")) << said().toStdString();
+}
+
 // nobody wants a press twice without a word
 TEST_F(RestoredPresses, AreNotLoadedTwiceUnasked)
 {

@@ -240,6 +240,22 @@ TEST_F(Tasks, AMapOfTheModulusIsTyped)
   EXPECT_TRUE(QTest::qWaitFor([&] { return !session_->body().stiffness; }, kPatience));
 }
 
+// a law that knows no map would press another body than is told, and export nothing
+TEST_F(Tasks, AMapTakesTheCorrectedLawAndIsExportedWithIt)
+{
+  launch(ownSurface());
+  ASSERT_EQ(session_->scene().law.settings().mode, LawMode::Paper);
+  auto* action = window_->findChild<QAction*>("tissueMapAction");
+  answer([action] { action->trigger(); }, { { "", "formula:10" } });
+  EXPECT_TRUE(QTest::qWaitFor([&] { return bool(session_->body().stiffness); }, kPatience));
+  EXPECT_EQ(session_->scene().law.settings().mode, LawMode::Corrected);
+  EXPECT_TRUE(said().contains("Corrected")) << said().toStdString();
+  pressThere("0, 0, 50, 5 mm");
+  const auto out = folder_.path() / "mapped";
+  EXPECT_TRUE(window_->exportData(QString::fromStdString(out.string()))) << said().toStdString();
+  EXPECT_TRUE(std::filesystem::exists(out / "presses.csv"));
+}
+
 // two balls with labels of their own, the second off the middle
 TEST_F(Tasks, AnOrganIsTakenOutOfAnImageOfLabels)
 {

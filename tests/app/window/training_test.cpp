@@ -4,6 +4,7 @@
 #include "tests/app/dialog_closer.h"
 #include "tests/app/window/window_rig.h"
 
+#include <QComboBox>
 #include <QImage>
 #include <QLabel>
 #include <QLineEdit>
@@ -78,6 +79,15 @@ protected:
                      .arg(1e3 * place.z(), 0, 'f', 3));
     QTest::keyClick(field, Qt::Key_Return);
     waitFor([](const Sample& sample) { return sample.contact.depth > 4e-3; });
+  }
+
+  // the largest force of such a press [N]
+  double pressedAt(const Eigen::Vector3d& place)
+  {
+    const std::size_t before = session_->presses().presses().size();
+    pressAt(place);
+    waitForPresses(before + 1);
+    return session_->presses().presses().back().summary.force;
   }
 
   void mark()
@@ -201,6 +211,39 @@ TEST_F(TrainingTest, SaysWhatIsMissing)
   window_->findChild<QAction*>("gradeAction")->trigger();
   EXPECT_TRUE(told().contains("nothing is graded")) << told().toStdString();
   EXPECT_FALSE(window_->saveSheet(QString::fromStdString((folder_.path() / "none").string())));
+  EXPECT_TRUE(QTest::qWaitFor([this] { return session_->body().nodules.empty(); }, kPatience))
+    << "none is left that nobody sees";
+  EXPECT_EQ(session_->scene().nodules, nullptr);
+}
+
+TEST_F(TrainingTest, NodulesThatWereGradedAreFeltByTheCorrectedLawUntilTheyAreTakenOut)
+{
+  start("4");
+  const Eigen::Vector3d place = above(0);
+  pressAt(place);
+  window_->findChild<QAction*>("gradeAction")->trigger();
+  EXPECT_TRUE(waitForLift());
+  auto* law = window_->findChild<QComboBox*>("law");
+  for (const char* other : { "Paper", "Exact half-space" })
+  {
+    law->setCurrentText(other);
+    EXPECT_TRUE(said().contains("corrected law")) << said().toStdString();
+    EXPECT_EQ(law->currentText(), "Corrected");
+  }
+  ASSERT_NE(session_->scene().nodules, nullptr);
+  const double stiff = pressedAt(place);
+  const auto sheet = folder_.path() / "sheet";
+  ASSERT_TRUE(window_->saveSheet(QString::fromStdString(sheet.string()))) << said().toStdString();
+  window_->findChild<QAction*>("noNodulesAction")->trigger();
+  EXPECT_TRUE(QTest::qWaitFor([this] { return session_->body().nodules.empty(); }, kPatience));
+  EXPECT_FALSE(window_->findChild<QAction*>("noNodulesAction")->isEnabled());
+  law->setCurrentText("Paper");
+  EXPECT_EQ(session_->scene().law.settings().mode, LawMode::Paper);
+
+  ASSERT_TRUE(window_->openFiles({ QString::fromStdString((sheet / "scene.json").string()) }));
+  EXPECT_EQ(session_->body().nodules.size(), 3U) << "as palp view SHEET";
+  EXPECT_EQ(session_->scene().law.settings().mode, LawMode::Corrected);
+  EXPECT_NEAR(pressedAt(place), stiff, 1e-3 * stiff);
 }
 
 } // namespace
