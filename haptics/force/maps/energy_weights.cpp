@@ -175,20 +175,24 @@ EnergyWeights::Means EnergyWeights::means(
   Eigen::MatrixX3d parts = Eigen::MatrixX3d::Zero(weights_.cols(), 3); // known, logs, inverses
   double least = std::numeric_limits<double>::infinity();              // of the logs
   double most = -least;
+  double before = 1.0;
+  double log = 0.0; // of that: neighbors are often of one tissue, and a logarithm takes long
   std::size_t begin = 0;
   for (std::size_t c = 0; c < ends_.size(); ++c)
   {
-    auto part = parts.row(static_cast<Eigen::Index>(c));
+    Eigen::RowVector3d part = Eigen::RowVector3d::Zero();
     for (std::size_t i = begin; i < ends_[c]; ++i)
     {
       if (const double at = ratio(places_[i]); std::isfinite(at))
       {
-        part += Eigen::RowVector3d(1.0, std::log(at), 1.0 / at);
-        least = std::min(least, std::log(at));
-        most = std::max(most, std::log(at));
+        log = at == before ? log : std::log(at);
+        before = at;
+        part += Eigen::RowVector3d(1.0, log, 1.0 / at);
+        least = std::min(least, log);
+        most = std::max(most, log);
       }
     }
-    part /= static_cast<double>(ends_[c] - begin);
+    parts.row(static_cast<Eigen::Index>(c)) = part / static_cast<double>(ends_[c] - begin);
     begin = ends_[c];
   }
   if (least > most) // nothing is known
