@@ -21,11 +21,9 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
-#include <cmath>
 #include <future>
 #include <iomanip>
 #include <optional>
-#include <span>
 #include <sstream>
 #include <utility>
 
@@ -204,6 +202,14 @@ std::vector<FileOrgan> readLabels(const std::vector<MeshSource>& meshes)
   return std::move(all.organs);
 }
 
+[[noreturn]] void refuseUneven(const SceneBody& body)
+{
+  throw Error(ErrorCode::BadValue,
+    "law: " + body.name +
+      " has nodules or a map of Young's modulus inside, which only the "
+      "corrected law without coatings feels; keep that, or take them out");
+}
+
 } // namespace
 
 SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
@@ -291,11 +297,6 @@ void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& 
   }
 }
 
-bool isUneven(const SceneBody& body)
-{
-  return !body.nodules.empty() || body.stiffness || std::ranges::any_of(body.organs, isUneven);
-}
-
 void feelTissue(Scene& scene, const SceneBody& body)
 {
   const ForceLaw& law = scene.law;
@@ -311,15 +312,7 @@ void feelTissue(Scene& scene, const SceneBody& body)
   scene.series = seriesBodyOf(body.compliance, law);
   if (own.mode != LawMode::Corrected || !own.coatings.empty())
   {
-    if (isUneven(body))
-    {
-      throw Error(ErrorCode::BadValue,
-        "law: " + body.name + " has nodules or a map of Young's modulus inside" +
-          ", which the corrected law without coatings feels, and no other; keep that, or take out "
-          "what "
-          "it has");
-    }
-    return;
+    return body.isUneven() ? refuseUneven(body) : void();
   }
   try
   {

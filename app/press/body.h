@@ -8,6 +8,7 @@
 #include "haptics/servo/scene.h"
 #include "haptics/surface/surface.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,6 +42,12 @@ struct SceneBody
   [[nodiscard]] std::span<const PlacedNodule> shownNodules() const
   {
     return training ? std::span<const PlacedNodule>{} : nodules;
+  }
+
+  /// Whether its stiffness, or that of an organ of it, differs from place to place.
+  [[nodiscard]] bool isUneven() const
+  {
+    return !nodules.empty() || stiffness || std::ranges::any_of(organs, &SceneBody::isUneven);
   }
 
   /// One of the organs that are felt, or the only body.
@@ -78,9 +85,6 @@ void setTissues(Scene& scene, const std::vector<OrganPlan>& organs);
 /// Puts surface and nodules of a body, or of each organ that is felt, to the laws in a scene.
 /// @throws Error  as feelTissue
 void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& organs);
-
-/// Whether the stiffness of a body, or of an organ of it, differs from place to place.
-[[nodiscard]] bool isUneven(const SceneBody& body);
 
 /// Puts the nodules of a body, its map and its compliance into a scene, felt by its law.
 /// @throws Error  BadValue: an uneven body under a law that knows it even; as embedNodules,

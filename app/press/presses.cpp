@@ -153,7 +153,9 @@ bool mayHideLift(const Recording& recording, std::size_t last)
 bool isReleased(const Recording& recording, std::size_t last, std::size_t next)
 {
   const std::span<const Sample> samples = recording.samples;
-  if (samples[last].organ != samples[next].organ)
+  const double apart = (samples[next].contact.center - samples[last].contact.center).norm();
+  if (samples[last].organ != samples[next].organ ||
+    apart > 2.0 * baseRadius(recording.scene.law.tip()))
   {
     return true;
   }
@@ -209,12 +211,6 @@ std::vector<std::size_t> noduleCounts(const Scene& scene)
     counts.push_back(nodules == nullptr ? 0 : nodules->nodules().size());
   }
   return counts;
-}
-
-std::size_t noduleCount(const Scene& scene)
-{
-  const auto counts = noduleCounts(scene);
-  return std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 });
 }
 
 void explainContrasts(std::ostream& out)
@@ -307,7 +303,8 @@ void writePresses(std::ostream& out, const Recording& recording)
          "not the touch; stiffness: of the law at once, which a curve of tissue that relaxes falls "
          "short of; empty where 1 N was not reached on the way; outside_limits: "
          "rules of validity that the deepest contact breaks\n";
-  const std::size_t nodules = noduleCount(scene);
+  const std::vector<std::size_t> counts = noduleCounts(scene);
+  const auto nodules = std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 });
   nodules > 0 ? explainContrasts(out) : void();
   out << "name," << (isOne ? "" : "organ,")
       << "start_s,duration_s,force_N,depth_mm,stiffness_at_1N_N_per_mm,energy_uJ,x_mm,y_mm,"

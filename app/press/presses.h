@@ -45,7 +45,7 @@ constexpr double kBounce = 0.02; ///< that a tool is apart at least, to have rel
 /// after. These speeds are the largest over 10 ms or a sample, within as much time as passes
 /// without one. So a servo that skips ends no press. Nor do samples that thinning left out, since
 /// it keeps what is apart. Velocities do not count: a table has none.
-/// Another organ is another press.
+/// Another organ is another press, and so is another place, further away than the tool is wide.
 [[nodiscard]] std::vector<PressSummary> findPresses(const Recording& recording);
 
 /// Writes presses.csv: one row per press, with tool and law. The same recording gives the same

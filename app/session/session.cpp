@@ -93,7 +93,7 @@ ForceLaw Session::knowing(const ForceLaw& law) const
 void Session::open(SceneBody body, std::vector<OrganPlan> organs)
 {
   Scene scene = nextScene();
-  if (isUneven(body))
+  if (body.isUneven())
   {
     scene.law = knowing(scene.law);
     for (OrganPlan& organ : organs)

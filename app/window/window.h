@@ -194,7 +194,6 @@ private:
   void finishTraining();
   void takeNodulesOut();
   void askSheet();
-  [[nodiscard]] const Session::Take* lastSearch() const;
   void makePressList();
   void showTicked();
   void pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>& lawOf);

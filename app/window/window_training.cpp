@@ -43,6 +43,15 @@ std::vector<Balls::Ball> ballsOf(const Grade& grade)
   return balls;
 }
 
+// null: none was graded
+const Session::Take* lastSearch(const Session& session)
+{
+  const std::vector<Session::Take>& takes = session.earlier();
+  const auto found = std::find_if(takes.rbegin(), takes.rend(),
+    [](const Session::Take& take) { return take.body.training.has_value(); });
+  return found == takes.rend() ? nullptr : &*found;
+}
+
 } // namespace
 
 void Window::makeTraining()
@@ -138,7 +147,8 @@ bool Window::isFree()
 {
   if (search_)
   {
-    message_->warn(tr("A search for nodules goes on: finish it first (Training > Finish)"));
+    message_->warn(
+      tr("A search for nodules goes on: finish it first (Training > Finish and grade)"));
   }
   return !search_;
 }
@@ -186,7 +196,7 @@ void Window::finishTraining()
         takeNodulesOut();
         return;
       }
-      const Session::Take* take = lastSearch();
+      const Session::Take* take = lastSearch(session_);
       const Recording& recording = take->recording;
       const ScoreSheet sheet =
         scoreSheetOf(take->body.name, recording.scene, recording.samples, *take->body.training);
@@ -210,14 +220,6 @@ void Window::takeNodulesOut()
   }
 }
 
-const Session::Take* Window::lastSearch() const
-{
-  const std::vector<Session::Take>& takes = session_.earlier();
-  const auto found = std::find_if(takes.rbegin(), takes.rend(),
-    [](const Session::Take& take) { return take.body.training.has_value(); });
-  return found == takes.rend() ? nullptr : &*found;
-}
-
 void Window::askSheet()
 {
   FolderDialog dialog(tr("Save the score sheet into"), "palp_training", this);
@@ -232,7 +234,7 @@ bool Window::saveSheet(const QString& directory)
   return attempt(
     [&]
     {
-      const Session::Take* take = lastSearch();
+      const Session::Take* take = lastSearch(session_);
       if (take == nullptr)
       {
         throw Error(ErrorCode::BadValue, "training: none was graded yet; finish one first");
@@ -240,7 +242,9 @@ bool Window::saveSheet(const QString& directory)
       if (exportOne(
             directory, exported({ take->body, take->recording, take->calibration }), nullptr))
       {
-        say(tr("Written to %1: %2").arg(directory, "score.html, score.json, score.csv"));
+        say(
+          tr("Written to %1: score.html, score.json, score.csv, and the recording that they are of")
+            .arg(directory));
       }
     });
 }

@@ -40,7 +40,8 @@ Wrench PassivityController::acting(double dt, double delay) const noexcept
 }
 
 // Within the step of the encoder: an arm that has just come into a step is at most one tick's way
-// past its border. Half a step there, as often as it goes to and fro under a stiff force, adds up.
+// past its border. Half a step there, as often as it goes back and forth under a stiff force, adds
+// up.
 Eigen::Vector3d PassivityController::within(const PortTick& tick) const noexcept
 {
   const Eigen::Array3d read = tick.position;

@@ -51,6 +51,24 @@ void appendPress(std::vector<double>& depths, double deepest)
   }
 }
 
+// a tool that follows a pointer which jumps is up for a moment
+TEST(Presses, AreTwoWhereTheToolComesDownElsewhereAtOnce)
+{
+  for (const double far : { 8.0_mm, 30.0_mm })
+  {
+    Recording recording = pressed({});
+    for (int i = 0; i < 600; ++i)
+    {
+      const bool lifts = i >= 300 && i < 313;
+      const ToolPose pose{ .apex = { i < 306 ? 0.0 : far, 0.0, lifts ? 1.0_mm : -3.0_mm } };
+      recording.samples.push_back(step(recording.scene, pose));
+      recording.samples.back().time = 1e-3 * i;
+    }
+    const auto presses = findPresses(recording);
+    ASSERT_EQ(presses.size(), far > 2.0 * kRadius ? 2U : 1U) << "else it is a bounce";
+  }
+}
+
 // Hertz: F = k d^1.5, so that the work is 2/5 F d and the stiffness 3/2 F / d
 TEST(Presses, HaveTheFiguresOfHertz)
 {

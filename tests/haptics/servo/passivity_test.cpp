@@ -221,7 +221,7 @@ double strayed(double quantum, double amplitude, double omega, double place)
 
 // half a step times the change of force at each crossing of a border is what the reading alone
 // gives
-TEST(PassivityController, StraysLittleWhereAnArmGoesToAndFroOverTheStepsOfItsEncoder)
+TEST(PassivityController, StraysLittleWhereAnArmGoesBackAndForthOverTheStepsOfItsEncoder)
 {
   constexpr double kFinest = 20e-6;
   for (const double steps : { 0.1, 0.4, 0.7, 2.0, 7.3, 40.0 }) // of the encoder, the amplitude
