@@ -226,7 +226,9 @@ void LawPanel::showWhatActs()
     // kept for the corrected law, and to be taken out where that refuses them
     text.field->setEnabled(corrected || !text.field->text().isEmpty());
   }
-  inside_->setText(insideBody_);
+  const bool isFelt = corrected && texts_[0].taken.empty();
+  inside_->setText(
+    isFelt ? insideBody_ : tr("%1: only Corrected without coatings feels it").arg(insideBody_));
   setRowVisible(static_cast<QGridLayout&>(*layout()), inside_, !insideBody_.isEmpty());
 }
 
