@@ -85,9 +85,13 @@ Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* sto
 
 ForceLaw Session::knowing(const ForceLaw& law) const
 {
+  if (law.settings().mode == LawMode::Corrected)
+  {
+    return law;
+  }
   TissueOptions tissue = optionsOf(law, plan_.validity);
   tissue.options.mode = LawMode::Corrected;
-  return law.settings().mode == LawMode::Corrected ? law : tissue.law();
+  return tissue.law();
 }
 
 void Session::open(SceneBody body, std::vector<OrganPlan> organs)

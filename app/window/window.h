@@ -172,7 +172,6 @@ private:
   void showMap();
   [[nodiscard]] const SurfaceMap* shownMap() const;
   [[nodiscard]] const StiffnessMap* currentMap() const;
-
   void showSupports();
   void followSupports();
   void paintByPointer();
@@ -227,6 +226,7 @@ private:
   void review(std::size_t ago);
   void endReview();
   void showPictured();
+  void showModel();
   void takeSamples();
   void showInside();
   void clearCharts();

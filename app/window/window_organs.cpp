@@ -77,7 +77,7 @@ void Window::makeOrganList()
       [this]
       {
         panel_->setScene(tissueInUse());
-        showPictured();
+        showModel();
         openSupports();
       });
   }
@@ -185,6 +185,12 @@ void Window::keepUndo(const std::vector<OrganPlan>& before)
   const auto use = [this](const std::vector<OrganPlan>& organs)
   { return [this, organs] { useOrgans(organs); }; };
   undo_.push(new Change(tr("change of organs"), use(before), use(session_.organs())));
+}
+
+// in the chart: of the organ in the panel
+void Window::showModel()
+{
+  charts_ && !review_ ? charts_->setLaw(tissueInUse().law) : void();
 }
 
 // that of the organ that is chosen, with the tool

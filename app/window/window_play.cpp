@@ -223,7 +223,7 @@ void Window::showPictured()
   isOther ? scaleBar_.setPlace(std::nullopt) : void();
   prepareView(view_, around_, moment);
   validity_ = Validity(moment.law, { .stableStiffness = session_.stableStiffness() });
-  charts_ && !review_ ? charts_->setLaw(tissueInUse().law) : void(); // of the organ in the panel
+  showModel();
   isStale_ = true;
   forceLabel_->setToolTip(QString::fromStdString(moment.calibration.note));
 }

@@ -36,8 +36,8 @@ struct PortTick
 /// Passivity observer: each wrench that really went to the device, times the motion and turn on
 /// which it acted: those of a delay later, split between ticks. For a force that is held over a
 /// tick this is the energy at the port, also between the samples, to within a step of the encoder
-/// times the force. Passivity controller: a variable
-/// damper that dissipates what is missing, after what the mechanism dissipates by itself.
+/// times the force. Passivity controller: a variable damper that dissipates what is missing, after
+/// what the mechanism dissipates by itself.
 ///
 /// @source  Hannaford, Ryu, "Time-domain passivity control of haptic interfaces", IEEE TRA 18(1),
 ///          2002; stored energy as reference: Ryu, Preusche, Hannaford, Hirzinger, "Time domain

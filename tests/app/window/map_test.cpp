@@ -113,7 +113,6 @@ protected:
   }
 };
 
-// the block has one stiffness on its faces, by the paper's law: of the color of the map's end
 TEST_F(MapTest, ARefusalInItsDialogIsReadWhole)
 {
   QTimer::singleShot(0, window_.get(),
@@ -138,6 +137,7 @@ TEST_F(MapTest, ARefusalInItsDialogIsReadWhole)
   action("mapAction")->trigger();
 }
 
+// the block has one stiffness on its faces, by the paper's law: of the color of the map's end
 TEST_F(MapTest, ColorsTheBodyAndGoesAndComes)
 {
   const int plain = countOf(isReddish);
