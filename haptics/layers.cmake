@@ -22,9 +22,9 @@ if(PALP_SANITIZE)
     -Wno-maybe-uninitialized)
   target_link_options(palp_flags INTERFACE -fsanitize=${PALP_SANITIZE})
   if(PALP_SANITIZE MATCHES undefined)
-    # half of the time to compile, for what AddressSanitizer finds as well, and for an alignment that
-    # no cast of ours can break: all of them are to bytes
-    target_compile_options(palp_flags INTERFACE -fno-sanitize=null,alignment)
+    # half of the time to compile, for what AddressSanitizer finds as well (pointers that are null or
+    # leave their object), and for an alignment that no cast of ours can break: all of them are to bytes
+    target_compile_options(palp_flags INTERFACE -fno-sanitize=null,alignment,object-size,pointer-overflow)
   endif()
 endif()
 

@@ -24,7 +24,7 @@ using Random = std::mt19937;
 #ifdef PALP_SLOW
 constexpr int kPoses = 200;
 #else
-constexpr int kPoses = 8;
+constexpr int kPoses = test::kSanitized ? 4 : 8;
 #endif
 
 double anyOf(Random& random, std::initializer_list<double> values)

@@ -57,7 +57,7 @@ TEST_P(Fuzz, EndsAsASurfaceOrATrueSentence)
 #ifdef PALP_SLOW
   const int count = fuzzCount();
 #else // the sanitizer, which takes many times as long for each, sees the first of all
-  const int count = fuzzCount(kSanitized ? 1200 : 10'000);
+  const int count = fuzzCount(kSanitized ? 600 : 10'000);
 #endif
   expectGoodFates(kind, fuzz(kind, count, memory, time));
 }
