@@ -69,7 +69,7 @@ Eigen::MatrixXd solved(const OrganModel& model, const Surface& surface,
     }
   }
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3 * std::ssize(places), std::ssize(places));
-  const std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t threads = solverThreads();
   for (std::size_t first = 0; first < loads.size() && !stop.stop_requested();
        first += threads * kMotionsTogether)
   {

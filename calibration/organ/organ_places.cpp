@@ -13,7 +13,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
-#include <thread>
 
 namespace palp
 {
@@ -249,7 +248,7 @@ std::vector<SurfacePoint> organPlaces(const Surface& surface, double spacing)
 bool addPlaces(
   OrganTable& table, const OrganModel& model, const Surface& surface, const OrganWork& work)
 {
-  const std::size_t step = kTogether * std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t step = kTogether * solverThreads();
   for (std::size_t i = 0; i < std::min(table.places.size(), work.places.size()); ++i)
   {
     table.places[i].position = work.places[i].position; // which a file tells in rounded millimeters
