@@ -174,7 +174,9 @@ int probe(const std::string& name)
     answered += code == IoCode::Ok ? 1 : 0;
     if (code == IoCode::Gone)
     {
-      std::cout << driver->limits().model << ": went away while it was probed; check its cable\n";
+      const bool isServed = name.starts_with("haply");
+      std::cout << driver->limits().model << ": went away while it was probed; check "
+                << (isServed ? "that its service still runs and knows it" : "its cable") << '\n';
       return kNoneUsable;
     }
     std::this_thread::sleep_until(begin + 1ms);

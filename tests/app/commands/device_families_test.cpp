@@ -112,6 +112,18 @@ TEST(DeviceFamilies, AHaplyIsThereWhereItsServiceKnowsOne)
   EXPECT_EQ(service.commands, 0) << "a list moves nothing";
 }
 
+TEST(DeviceFamilies, AHaplyThatGoesAwayWhileProbedIsLookedForAtItsService)
+{
+  HaplyService service(R"({"session_id": 7, "inverse3": [{"device_id": "049D", "state":
+    {"cursor_position": {"x": 0.0, "y": -0.12, "z": 0.15}}}]})");
+  service.habit = Habit::Closes;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(showDevices({ .probe = "haply:" + std::to_string(service.port) }), 6);
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_NE(said.find("its service still runs"), std::string::npos) << said;
+  EXPECT_EQ(said.find("cable"), std::string::npos) << said;
+}
+
 TEST(DeviceFamilies, ForceDimensionNeedsItsMakersLibraryAndIsNotOpened)
 {
   EXPECT_NE(
