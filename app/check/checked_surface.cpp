@@ -53,7 +53,7 @@ CheckedSurface checkOpened(const MeshSource& source, const MeshFile& opened)
   return checked;
 }
 
-RepairedSurface repairedSurface(const CheckedSurface& checked, double largestHole)
+CheckedRepair repairedSurface(const CheckedSurface& checked, double largestHole)
 {
   const ProgressLine progress("repairing");
   RepairedMesh mesh = repairedMesh(checked.points, checked.triangles, largestHole);
@@ -62,7 +62,7 @@ RepairedSurface repairedSurface(const CheckedSurface& checked, double largestHol
 }
 
 void writeRepaired(
-  const std::filesystem::path& file, const RepairedSurface& repaired, const CheckedSurface& checked)
+  const std::filesystem::path& file, const CheckedRepair& repaired, const CheckedSurface& checked)
 {
   writeSurface(file, *makePolyData(repaired.mesh.points, repaired.mesh.triangles), checked.space);
 }

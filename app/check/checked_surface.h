@@ -33,18 +33,18 @@ struct CheckedSurface
 [[nodiscard]] CheckedSurface checkOpened(const MeshSource& source, const MeshFile& opened);
 
 /// A surface after its repair, and what is wrong with it then.
-struct RepairedSurface
+struct CheckedRepair
 {
   RepairedMesh mesh;
   MeshHealth health;
 };
 
 /// @param largestHole  as in repairedMesh
-[[nodiscard]] RepairedSurface repairedSurface(const CheckedSurface& checked, double largestHole);
+[[nodiscard]] CheckedRepair repairedSurface(const CheckedSurface& checked, double largestHole);
 
 /// @throws Error  as writeSurface
-void writeRepaired(const std::filesystem::path& file, const RepairedSurface& repaired,
-  const CheckedSurface& checked);
+void writeRepaired(
+  const std::filesystem::path& file, const CheckedRepair& repaired, const CheckedSurface& checked);
 
 /// @throws Error  BadValue: no kind of file that a repaired surface can be written to
 void checkRepairName(const std::filesystem::path& file);

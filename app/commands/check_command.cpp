@@ -148,7 +148,7 @@ void runCheck(const CheckOptions& options)
   bool isDisturbed = disturbs(checked.health);
   if (!options.repaired.empty())
   {
-    const RepairedSurface repaired = repairedSurface(checked, options.largestHole);
+    const CheckedRepair repaired = repairedSurface(checked, options.largestHole);
     isDisturbed = disturbs(repaired.health);
     writeRepaired(out.staged(options.repaired), repaired, checked);
     std::cout << "# repaired: " << doneIn(repaired.mesh) << '\n'

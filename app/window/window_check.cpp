@@ -29,7 +29,7 @@ namespace
 // in its file once that is published
 struct StagedRepair
 {
-  RepairedSurface surface;
+  CheckedRepair surface;
   std::unique_ptr<OutputFolder> folder;
 };
 
@@ -38,7 +38,7 @@ StagedRepair stagedRepair(
 {
   auto folder = std::make_unique<OutputFolder>(
     file.parent_path(), std::vector{ file.filename().string() }, OutputFolder::Earlier::Replace);
-  RepairedSurface surface = repairedSurface(checked, largestHole);
+  CheckedRepair surface = repairedSurface(checked, largestHole);
   writeRepaired(folder->stage() / file.filename(), surface, checked);
   return { std::move(surface), std::move(folder) };
 }

@@ -70,6 +70,13 @@ TEST_F(CheckCommand, SaysWhatRunSaysOfTheFile)
     << text;
 }
 
+TEST_F(CheckCommand, AsksForTheUnitWhereTwoMayBeMeant)
+{
+  const test::Finished finished = check(holedBall().string()); // 60 of some unit
+  EXPECT_EQ(finished.code, 2) << finished.err;
+  EXPECT_NE(finished.err.find("more than one unit"), std::string::npos) << finished.err;
+}
+
 // writers of VTK for these leave a cut file, and say nothing
 TEST_F(CheckCommand, OnAFullDiskTheFileBeforeStays)
 {
