@@ -63,6 +63,7 @@ Interrupt::Interrupt(std::function<void()> last)
         pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr); // ends the program
       }
     });
+  forwarded_.emplace(signals_, listener_.native_handle());
 }
 
 void Interrupt::endWhatDoesNotStop(const char* sentence)
@@ -107,6 +108,7 @@ void Interrupt::endUnless(bool stopped)
 
 Interrupt::~Interrupt()
 {
+  forwarded_.reset();
   listener_.request_stop();
   pthread_kill(listener_.native_handle(), kWake);
   listener_.join(); // before the signals act again

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/program/forwarded_signals.h"
+
 #include <csignal>
 #include <ctime>
 #include <functional>
@@ -14,7 +16,7 @@ namespace palp
 
 /// While it lives, Ctrl-C, SIGTERM and a terminal that closes do not end the program at once.
 ///
-/// Made before any other thread, which then inherits that the signals wait here.
+/// Made before any other thread of ours, which then inherits that the signals wait here.
 class Interrupt
 {
 public:
@@ -56,6 +58,7 @@ private:
   sigset_t signals_{};
   sigset_t before_{};
   std::jthread listener_;
+  std::optional<ForwardedSignals> forwarded_;
 };
 
 } // namespace palp

@@ -37,6 +37,12 @@ std::shared_ptr<const Surface> surfaceOf(vtkPolyData& mesh)
   return std::make_shared<Surface>(pointsOf(mesh), trianglesOf(mesh));
 }
 
+#ifdef PALP_SLOW
+constexpr std::size_t kWays = 1;
+#else
+constexpr std::size_t kWays = 2; // every other cut for each tool
+#endif
+
 constexpr Tool kLarge{ 10.0_mm, 4.0_mm };
 constexpr Tool kSmall{ 4.0_mm, 2.0_mm };
 
@@ -124,10 +130,12 @@ void expectSmooth(const std::string& name, const std::shared_ptr<const Surface>&
   double mostFolded)
 {
   Changes worst;
-  for (const Tool& tool : { kLarge, kSmall })
+  for (const bool isSmall : { false, true })
   {
-    for (const Eigen::Vector3d& across : cuts())
+    const Tool& tool = isSmall ? kSmall : kLarge;
+    for (std::size_t cut = isSmall ? kWays - 1 : 0; cut < cuts().size(); cut += kWays)
     {
+      const Eigen::Vector3d& across = cuts()[cut];
       const Changes result = changes(surface, tool, across, held);
       const std::string at = "R " + std::to_string(tool.radius) + " across " +
         std::to_string(across.x()) + " " + std::to_string(across.y());

@@ -1,8 +1,11 @@
 #pragma once
 
+#include "app/program/forwarded_signals.h"
+
 #include <array>
 #include <csignal>
 #include <ctime>
+#include <optional>
 
 namespace palp
 {
@@ -25,9 +28,11 @@ public:
       }
     }
     pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+    forwarded_.emplace(signals_, pthread_self());
   }
   ~WaitingSignals()
   {
+    forwarded_.reset();
     pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }
   WaitingSignals(const WaitingSignals&) = delete;
@@ -42,6 +47,7 @@ public:
 private:
   sigset_t signals_{};
   sigset_t before_{};
+  std::optional<ForwardedSignals> forwarded_;
 };
 
 } // namespace palp

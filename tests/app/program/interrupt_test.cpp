@@ -12,6 +12,15 @@ namespace palp
 namespace
 {
 
+// as libraries start them with a program, before its signals wait: they block none
+void startThreads()
+{
+  for (int i = 0; i < 4; ++i)
+  {
+    std::thread([] { std::this_thread::sleep_for(std::chrono::minutes(1)); }).detach();
+  }
+}
+
 // as a factorization that nothing stops
 [[noreturn]] void workOn()
 {
@@ -26,6 +35,7 @@ TEST(InterruptDeathTest, WorkThatDoesNotStopEndsOnceItsFilesAreInOrder)
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EXIT(
     {
+      startThreads();
       Interrupt interrupt;
       interrupt.endBy([] { return std::string("put in order"); });
       workOn();
@@ -34,11 +44,24 @@ TEST(InterruptDeathTest, WorkThatDoesNotStopEndsOnceItsFilesAreInOrder)
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(8));
 }
 
+TEST(InterruptDeathTest, WhatIsDoneLastIsDoneBeforeTheSignalEndsIt)
+{
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  EXPECT_EXIT(
+    {
+      startThreads();
+      Interrupt interrupt([] { (void)!write(STDERR_FILENO, "done last", 9); });
+      workOn();
+    },
+    testing::KilledBySignal(SIGTERM), "done last");
+}
+
 TEST(InterruptDeathTest, WorkThatStopsByItselfGoesOnToItsEnd)
 {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   EXPECT_EXIT(
     {
+      startThreads();
       Interrupt interrupt;
       interrupt.endBy([] { return std::string("put in order"); });
       interrupt.endBy({});
