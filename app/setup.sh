@@ -3,7 +3,7 @@
 palp_packages=(build-essential cmake ninja-build libeigen3-dev libopenmesh-dev libvtk9-dev
   libvtk9-qt-dev qtmultimedia5-dev libqt5multimedia5-plugins libhidapi-dev libusb-1.0-0-dev
   libopenigtlink-dev libspnav-dev libwebsockets-dev libcli11-dev nlohmann-json3-dev nettle-dev
-  zlib1g-dev libseccomp-dev libsuitesparse-dev libopenblas0-pthread libgdcm-dev libicu-dev libsystemd-dev
+  zlib1g-dev libseccomp-dev libsuitesparse-dev libgdcm-dev libicu-dev libsystemd-dev
   libegl-dev libegl1 libgl1-mesa-dri fonts-dejavu-core pkgconf)
 palp_test_packages=(ccache libgtest-dev dbus-daemon dcmtk libopenblas0-serial xvfb xauth umockdev libumockdev-dev clang-format clang-tidy codespell python3 parallel faketime)
 palp_long_test_packages=(slurmctld slurmd slurm-client munge)
