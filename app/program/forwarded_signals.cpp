@@ -8,14 +8,16 @@ namespace palp
 namespace
 {
 
-std::atomic<pthread_t>
-  waiting{}; // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): a handler's
+std::atomic<pthread_t> waiting{}; // a handler sees nothing else; none: 0
 static_assert(std::atomic<pthread_t>::is_always_lock_free);
 
 void passOn(int signal)
 {
   const int error = errno;
-  pthread_kill(waiting, signal);
+  if (const pthread_t to = waiting; to != pthread_t{}) // else it waits no more
+  {
+    pthread_kill(to, signal);
+  }
   errno = error;
 }
 
