@@ -97,7 +97,7 @@ void ValidityPanel::showRules(std::span<const Rule> rules, std::span<const doubl
   QString text;
   for (std::size_t i = 0; i < contrasts.size(); ++i)
   {
-    text += contrastText(i, contrasts[i]);
+    text += contrastText(i + 1, contrasts[i]);
   }
   for (const Rule& rule : sorted)
   {

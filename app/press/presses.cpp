@@ -310,9 +310,9 @@ void writePresses(std::ostream& out, const Recording& recording)
       << "start_s,duration_s,force_N,depth_mm,stiffness_at_1N_N_per_mm,energy_uJ,x_mm,y_mm,"
          "z_mm,normal_x,normal_y,normal_z,thickness_mm,tool,young_kPa,poisson,law"
       << (recording.rated ? ",outside_limits" : "");
-  for (std::size_t i = 0; i < nodules; ++i)
+  for (std::size_t number = 1; number <= nodules; ++number)
   {
-    out << ",nodule_" << i << "_percent";
+    out << ",nodule_" << number << "_percent";
   }
   out << '\n';
   for (const PressSummary& press : findPresses(recording))

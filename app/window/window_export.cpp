@@ -295,7 +295,8 @@ bool Window::exportInto(const QString& directory)
       }
       else if (goesOn && map_)
       {
-        written << tr("not the stiffness map, which is of another tool or tissue");
+        written << tr("not the stiffness map: take back the change of tool or tissue since "
+                      "(Ctrl+Z) to export it");
       }
       if (!goesOn)
       {

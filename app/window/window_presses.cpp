@@ -106,6 +106,7 @@ void Window::makeEditMenu()
   QMenu* edit = menuBar()->addMenu(tr("&Edit"));
   edit->setObjectName("editMenu");
   QAction* undo = undo_.createUndoAction(this, tr("&Undo"));
+  undo->setObjectName("undoAction");
   undo->setShortcut(QKeySequence::Undo);
   QAction* redo = undo_.createRedoAction(this, tr("&Redo"));
   redo->setShortcuts({ QKeySequence("Ctrl+Shift+Z"), QKeySequence("Ctrl+Y") });

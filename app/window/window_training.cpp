@@ -3,6 +3,7 @@
 #include "app/panels/folder_dialog.h"
 #include "app/panels/panel_area.h"
 #include "app/panels/tissue_panel.h"
+#include "app/shell/change.h"
 #include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
 #include "app/train/panel/training_panel.h"
@@ -126,7 +127,7 @@ void Window::beginSearch()
   lockForSearch(true);
   training_->showSearch(*session_.body().training);
   say(tr("Search what you see of %1: press and slide, watch the force, and mark with M where it "
-         "rises")
+         "rises; Ctrl+Z takes a mark back")
         .arg(QString::fromStdString(session_.body().name)));
 }
 
@@ -168,9 +169,20 @@ void Window::markPlace()
     message_->warn(tr("Nothing was touched yet: press where a nodule may be, then mark"));
     return;
   }
-  search_->marks.push_back(touched->time);
-  marked_.push_back(markAt(touched->contact.center, appearance::kContact));
-  showInside();
+  const auto add = [this, time = touched->time, place = touched->contact.center]
+  {
+    search_->marks.push_back(time);
+    marked_.push_back(markAt(place, appearance::kContact));
+    showInside();
+  };
+  const auto takeBack = [this]
+  {
+    search_->marks.pop_back();
+    marked_.pop_back();
+    showInside();
+  };
+  add();
+  undo_.push(new Change(tr("mark"), takeBack, add));
 }
 
 void Window::finishTraining()
@@ -187,6 +199,7 @@ void Window::finishTraining()
       const std::size_t before = session_.earlier().size();
       session_.finishTraining(search_->marks);
       search_.reset();
+      undo_.clear(); // its marks are graded
       lockForSearch(false);
       clearCharts();
       takesKept_ = session_.earlier().size();

@@ -61,22 +61,35 @@ Eigen::Vector3d middleOf(std::span<const Eigen::Vector3d> points, const Triangle
   return (points[at(t[0])] + points[at(t[1])] + points[at(t[2])]) / 3.0;
 }
 
-void findLoosePoints(
-  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, Findings& findings)
+// of each point: how many corners of triangles it is
+std::vector<int> usesOf(
+  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
 {
-  const std::vector<int> first = firstOfEach(points);
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    first[i] == static_cast<int>(i) ? void() : findings.add(Fault::DuplicatePoint, points[i]);
-  }
-  std::vector<bool> used(points.size());
+  std::vector<int> uses(points.size());
   for (const Triangle& t : triangles)
   {
-    used[at(t[0])] = used[at(t[1])] = used[at(t[2])] = true;
+    for (const int corner : t)
+    {
+      ++uses[at(corner)];
+    }
+  }
+  return uses;
+}
+
+void findLoosePoints(std::span<const Eigen::Vector3d> points, const std::vector<int>& uses,
+  bool shared, Findings& findings)
+{
+  if (shared)
+  {
+    const std::vector<int> first = firstOfEach(points);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      first[i] == static_cast<int>(i) ? void() : findings.add(Fault::DuplicatePoint, points[i]);
+    }
   }
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    used[i] ? void() : findings.add(Fault::UnusedPoint, points[i]);
+    uses[i] > 0 ? void() : findings.add(Fault::UnusedPoint, points[i]);
   }
 }
 
@@ -294,10 +307,14 @@ const Finding* MeshHealth::find(Fault fault) const noexcept
 
 MeshHealth healthOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
 {
-  MeshHealth health{ .points = points.size(), .triangles = triangles.size() };
-  Findings findings(health.findings);
-  findLoosePoints(points, triangles, findings);
   const MergedMesh mesh = mergedMesh(points, triangles);
+  const std::vector<int> uses = usesOf(points, triangles);
+  // a file like STL, where each triangle has corners of its own, cannot say which are the same
+  const bool shared = std::ranges::any_of(uses, [](int n) { return n != 1; });
+  MeshHealth health{ .points = shared ? points.size() : mesh.points.size(),
+    .triangles = triangles.size() };
+  Findings findings(health.findings);
+  findLoosePoints(points, uses, shared, findings);
   tellDone(0.3); // of the time, about; as below
   findThin(mesh, points, triangles, findings);
   const Subject subject = subjectOf(mesh);

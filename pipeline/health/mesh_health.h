@@ -13,7 +13,7 @@ namespace palp
 /// What a surface can have that a press, or another program, takes ill.
 enum class Fault
 {
-  DuplicatePoint,    ///< at the place of another
+  DuplicatePoint,    ///< at the place of another, where triangles share any
   UnusedPoint,       ///< of no triangle
   Degenerate,        ///< a triangle without an area
   DuplicateTriangle, ///< between the points of another
@@ -50,7 +50,7 @@ struct MeshPiece
 /// What is known of a surface before it is pressed.
 struct MeshHealth
 {
-  std::size_t points = 0;
+  std::size_t points = 0; ///< different ones where each triangle has its own, as STL has it
   std::size_t triangles = 0;
   std::vector<Finding> findings{};   ///< in the order of Fault; only those that were found
   std::vector<MeshPiece> pieces{};   ///< the largest first

@@ -58,7 +58,8 @@ TrainingPanel::TrainingPanel(const Curriculum& curriculum, QWidget* parent)
   , level_(new QComboBox)
   , seed_(new QLineEdit)
   , start_(button(tr("Start"), "trainingStart", tr("Hide nodules and begin to search")))
-  , mark_(button(tr("Mark (M)"), "trainingMark", tr("A nodule is where the tool touched last")))
+  , mark_(button(tr("Mark (M)"), "trainingMark",
+      tr("A nodule is where the tool touched last; Ctrl+Z takes the last mark back")))
   , finish_(button(tr("Finish"), "trainingFinish", tr("Grade the search and show the nodules")))
   , save_(button(tr("Save sheet…"), "trainingSave",
       tr("Score sheet as JSON, CSV and page, and all that repeats the search")))

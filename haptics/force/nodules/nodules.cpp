@@ -134,7 +134,7 @@ void checkApart(std::span<const Nodule> nodules, std::span<const Eigen::Vector3d
       if ((places[i] - places[j]).norm() < nodules[i].radius + nodules[j].radius)
       {
         throw Error(ErrorCode::BadValue,
-          "nodules " + std::to_string(j) + " and " + std::to_string(i) +
+          "nodules " + std::to_string(j + 1) + " and " + std::to_string(i + 1) +
             " overlap; move one of them");
       }
     }

@@ -147,7 +147,7 @@ TEST_F(SceneCommand, FeelsANoduleInTheBody)
 
   // the most of the force's factor is that of the deepest moment, which presses.csv tells
   const std::string presses = test::readAll(folder_.path() / "out/presses.csv");
-  EXPECT_NE(presses.find(",law,nodule_0_percent\n"), std::string::npos) << presses;
+  EXPECT_NE(presses.find(",law,nodule_1_percent\n"), std::string::npos) << presses;
   const double told = std::stod(presses.substr(presses.rfind(',') + 1));
   const auto& forces = felt["force_N"];
   const auto at = std::ranges::max_element(forces) - forces.begin();

@@ -16,8 +16,8 @@ TEST(ValidityPanel, TellsEachNoduleInWhatPeopleNotice)
   ValidityPanel panel;
   panel.showRules({}, std::array{ 0.14, -0.045, 0.5, -0.5 });
   for (const char* line :
-    { "nodule 0: +14.0 % of the force", "2.0 times the 7 %", "0.9 times the 15 %",
-      "nodule 1: -4.5 % of the force", "0.1 times the 45 % that people notice of modulus by stylus",
+    { "nodule 1: +14.0 % of the force", "2.0 times the 7 %", "0.9 times the 15 %",
+      "nodule 2: -4.5 % of the force", "0.1 times the 45 % that people notice of modulus by stylus",
       "1.5 times the 22 % that people notice of compliance",   // a third less
       "4.5 times the 22 % that people notice of compliance" }) // twice as much
   {

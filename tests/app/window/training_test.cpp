@@ -166,6 +166,30 @@ TEST_F(TrainingTest, FindsMarksGradesRevealsAndRepeats)
   EXPECT_NE(again.err.find("repeated to the byte"), std::string::npos) << again.err;
 }
 
+TEST_F(TrainingTest, AMarkIsTakenBackUntilItIsGraded)
+{
+  start("4");
+  EXPECT_TRUE(said().contains("Ctrl+Z")) << said().toStdString();
+  const auto undo = [this](Qt::Key key)
+  { QTest::keyClick(window_.get(), key, Qt::ControlModifier); };
+  const auto marks = [this](const char* count)
+  { return QTest::qWaitFor([&] { return told().contains(count); }, kPatience); };
+  pressAt(above(0));
+  mark();
+  mark();
+  EXPECT_TRUE(marks("2 marked")) << told().toStdString();
+  undo(Qt::Key_Z);
+  EXPECT_TRUE(marks("1 marked")) << told().toStdString();
+  undo(Qt::Key_Z);
+  EXPECT_TRUE(marks("0 marked")) << told().toStdString();
+  undo(Qt::Key_Z); // there is none
+  undo(Qt::Key_Y);
+  EXPECT_TRUE(marks("1 marked")) << told().toStdString();
+  click("trainingFinish");
+  EXPECT_TRUE(told().contains("1 of 3 nodules found, 0 false marks")) << told().toStdString();
+  EXPECT_FALSE(window_->findChild<QAction*>("undoAction")->isEnabled());
+}
+
 TEST_F(TrainingTest, TellsOfNoNoduleBeforeItIsGraded)
 {
   start("4");

@@ -45,21 +45,41 @@ TEST(MeshHealth, OfASphereIsPerfect)
 }
 
 // as STL has it: three points a triangle
-TEST(MeshHealth, OfLooseTrianglesIsThatOfThoseThatShareTheirPoints)
+Mesh loosened(const Mesh& mesh)
 {
-  const Mesh sphere = makeSphere(0.03, 3);
   Mesh loose;
-  for (const Triangle& triangle : sphere.triangles)
+  for (const Triangle& triangle : mesh.triangles)
   {
+    const auto first = static_cast<int>(loose.points.size());
     for (const int corner : triangle)
     {
-      loose.points.push_back(sphere.points[at(corner)]);
+      loose.points.push_back(mesh.points[at(corner)]);
     }
-    const auto first = static_cast<int>(loose.points.size()) - 3;
     loose.triangles.push_back({ first, first + 1, first + 2 });
   }
-  const std::size_t doubles = 3 * sphere.triangles.size() - sphere.points.size();
-  EXPECT_EQ(found(healthOf(loose)), "duplicate point " + std::to_string(doubles) + "; ");
+  return loose;
+}
+
+TEST(MeshHealth, OfLooseTrianglesIsThatOfThoseThatShareTheirPoints)
+{
+  Mesh sphere = makeSphere(0.03, 3);
+  const MeshHealth whole = healthOf(loosened(sphere));
+  EXPECT_EQ(found(whole), "");
+  EXPECT_EQ(whole.points, sphere.points.size());
+  EXPECT_EQ(whole.pieces.size(), 1U);
+
+  std::swap(sphere.triangles[7][0], sphere.triangles[7][1]);
+  sphere.triangles.push_back(sphere.triangles[90]);
+  sphere.triangles.erase(sphere.triangles.begin() + 200);
+  EXPECT_NE(found(healthOf(sphere)), "");
+  EXPECT_EQ(found(healthOf(loosened(sphere))), found(healthOf(sphere)));
+}
+
+TEST(MeshHealth, WherePointsAreSharedTwoAtAPlaceAreAFault)
+{
+  Mesh loose = loosened(makeSphere(0.03, 3));
+  loose.triangles.push_back(loose.triangles.back());
+  EXPECT_NE(healthOf(loose).find(Fault::DuplicatePoint), nullptr);
 }
 
 TEST(MeshHealth, CountsHolesAndMeasuresTheWidest)

@@ -270,7 +270,11 @@ TEST(Nodules, WhatCannotBeIsRefused)
   expectRefused([&] { HomogeneousPress(ForceLaw(which.tip, which.law().material()), {}, 1.0_mm); },
     "corrected law");
   const std::array places{ Eigen::Vector3d(0.0, 0.0, 8.0_mm), Eigen::Vector3d(0.0, 0.0, 15.0_mm) };
-  expectRefused([&] { checkApart(std::array{ kShallow, kShallow }, places); }, "0 and 1 overlap");
+  expectRefused(
+    [&] {
+      checkApart(std::array{ kShallow, kShallow }, places);
+    },
+    "nodules 1 and 2 overlap");
 }
 
 } // namespace
