@@ -1,6 +1,7 @@
 #include "app/check/check_text.h"
 
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -119,8 +120,7 @@ std::string verdictOf(const MeshHealth& health)
   std::string names;
   for (const Finding& one : health.findings)
   {
-    names +=
-      !disturbs(one.fault) ? "" : (names.empty() ? "" : ", ") + std::string(nameOf(one.fault));
+    disturbs(one.fault) ? addListed(names, nameOf(one.fault)) : void();
   }
   return !names.empty()       ? "A press is disturbed by: " + names
     : health.findings.empty() ? "No fault was found: nothing disturbs a press"
@@ -155,7 +155,7 @@ std::string doneIn(const RepairedMesh& repaired)
 {
   std::string line;
   const auto add = [&](std::size_t count, const char* what, const char* many, const char* done)
-  { line += count > 0 ? (line.empty() ? "" : ", ") + counted(count, what, many) + done : ""; };
+  { count > 0 ? addListed(line, counted(count, what, many) + done) : void(); };
   add(repaired.merged, "point", "points", " merged or left out");
   add(repaired.removed, "triangle", "triangles", " removed");
   add(repaired.cut, "triangle", "triangles", " added where points lay on edges of others");

@@ -13,6 +13,7 @@
 #include "app/stiffness/stiffness_text.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 #include "haptics/units.h"
 
 #include <CLI/CLI.hpp>
@@ -108,16 +109,11 @@ std::size_t organIn(const ScenePlan& plan, const std::string& name)
   {
     return felt.front();
   }
-  std::string names;
-  for (const OrganPlan& organ : plan.organs)
-  {
-    names.append(names.empty() ? "" : ", ").append(printable(organ.name));
-  }
   throw Error(ErrorCode::BadValue,
     "--pressed: " +
       (name.empty() ? std::string("the scene has several; give one")
                     : inQuotes(name) + " is none of the scene") +
-      ": " + names);
+      ": " + listed(plan.organs, [](const OrganPlan& organ) { return printable(organ.name); }));
 }
 
 MapSubject subjectOf(const MapOptions& options)

@@ -8,6 +8,7 @@
 #include "app/program/exec_program.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 
 #include <CLI/CLI.hpp>
 
@@ -37,13 +38,9 @@ void refuseUnknownCommand(const CLI::App& app, const std::string& word)
   {
     return;
   }
-  std::string names;
-  for (const CLI::App* command : app.get_subcommands({}))
-  {
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  }
   throw Error(ErrorCode::BadValue,
-    "'" + word + "' is neither a command nor a file here; the commands are " + names);
+    "'" + word + "' is neither a command nor a file here; the commands are " +
+      listed(app.get_subcommands({}), &CLI::App::get_name));
 }
 
 // `palp liver.stl` is `palp view liver.stl`, `palp help run` is `palp run --help`

@@ -2,6 +2,7 @@
 
 #include "app/folder/export_folder.h"
 #include "app/train/score_sheet.h"
+#include "haptics/files/listed.h"
 
 #include <iostream>
 #include <set>
@@ -12,16 +13,6 @@ namespace palp
 {
 namespace
 {
-
-std::string listed(const std::set<std::string>& names)
-{
-  std::string text;
-  for (const std::string& name : names)
-  {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
 
 // takes out of names the score sheets in a folder
 std::set<std::string> sheetsOf(std::set<std::string>& names, const std::filesystem::path& folder)

@@ -12,6 +12,7 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 #include "haptics/files/replace_file.h"
 #include "haptics/units.h"
 #include "pipeline/surface_io/label_names.h"
@@ -138,17 +139,16 @@ void tellLooks(const std::vector<ImportedOrgan>& organs)
   std::vector<std::string> names(organs.size());
   std::ranges::transform(organs, names.begin(), &ImportedOrgan::name);
   const std::vector<OrganLook> looks = looksOf(names);
-  const auto add = [](std::string& list, const std::string& what)
-  { list.append(list.empty() ? "" : ", ").append(what); };
   std::string tissues;
   std::string unfelt;
   for (std::size_t i = 0; i < looks.size(); ++i)
   {
     const auto& [role, color, tissue] = looks[i];
-    tissue != nullptr ? add(tissues, names[i] + " as " + tissue) : void();
+    tissue != nullptr ? addListed(tissues, names[i] + " as " + tissue) : void();
     const std::string_view how = role;
-    how != "press" ? add(unfelt, names[i] + (how == "show" ? " (only shown)" : " (see-through)"))
-                   : void();
+    how != "press"
+      ? addListed(unfelt, names[i] + (how == "show" ? " (only shown)" : " (see-through)"))
+      : void();
   }
   tell("tissues in scene.json: " + tissues + (tissues.empty() ? "" : ", by their names; ") +
     "else the default, 50 kPa");

@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 
 #include <nlohmann/json.hpp>
 
@@ -15,16 +16,6 @@ namespace
 {
 
 const nlohmann::json kEmpty = nlohmann::json::object();
-
-std::string joined(const std::vector<std::string>& words)
-{
-  std::string text;
-  for (const std::string& word : words)
-  {
-    text.append(text.empty() ? "" : ", ").append(word);
-  }
-  return text;
-}
 
 // "[code] parse error at line 3, column 1: syntax error while parsing object key - unexpected '}'"
 std::string wordsOf(const std::string& what)
@@ -182,7 +173,7 @@ void JsonObject::finish() const
   {
     if (std::find(known_.begin(), known_.end(), key) == known_.end())
     {
-      refuse(key, "unknown key; known here: " + joined(known_));
+      refuse(key, "unknown key; known here: " + listed(known_));
     }
   }
 }
@@ -194,7 +185,7 @@ std::size_t JsonObject::choice(
   if (found == words.end())
   {
     refuse(key,
-      (word.empty() ? "is missing" : inQuotes(word) + " is not known") + "; give " + joined(words));
+      (word.empty() ? "is missing" : inQuotes(word) + " is not known") + "; give " + listed(words));
   }
   return static_cast<std::size_t>(found - words.begin());
 }

@@ -7,6 +7,7 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 #include "haptics/units.h"
 
 #include <CLI/CLI.hpp>
@@ -153,14 +154,9 @@ void LawOptions::checkTaken(
   {
     return;
   }
-  std::string names;
-  for (const std::string& one : given)
-  {
-    names += (names.empty() ? "" : ", ") + one;
-  }
   const bool isOne = given.size() == 1;
   throw Error(ErrorCode::BadValue,
-    names + ": the law '" + nameOf(mode) + "' knows none" + (isOne ? "" : " of these") +
+    listed(given) + ": the law '" + nameOf(mode) + "' knows none" + (isOne ? "" : " of these") +
       "; take the law 'corrected'" + besides + ", or leave " + (isOne ? "it" : "them") + " out");
 }
 
@@ -251,7 +247,7 @@ std::string actingFactors(const ForceLaw& law, const ContactGeometry& place)
   {
     if (const double value = std::round(factor.value * 1e4) / 1e4; value != 1.0)
     {
-      acting += (acting.empty() ? "" : ", ") + std::string(factor.name) + " x" + shortest(value);
+      addListed(acting, std::string(factor.name) + " x" + shortest(value));
     }
   }
   return acting;
@@ -264,7 +260,7 @@ std::string brokenNames(std::span<const Rule> rules)
   {
     if (!rule.holds())
     {
-      names += (names.empty() ? "" : ", ") + std::string(rule.name);
+      addListed(names, rule.name);
     }
   }
   return names;

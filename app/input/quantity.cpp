@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 
 #include <algorithm>
 #include <array>
@@ -95,22 +96,12 @@ Split splitNumber(std::string_view text, std::string_view what)
   return { number, trimmed(rest) };
 }
 
-std::string listOf(std::span<const Unit> units)
-{
-  std::string names;
-  for (const Unit& unit : units)
-  {
-    names += (names.empty() ? "" : ", ") + std::string(unit.name);
-  }
-  return names;
-}
-
 [[noreturn]] void refuseBare(std::string_view what, std::string_view text, std::string_view number,
   const Unit& likely, std::span<const Unit> units)
 {
   refuse(what, text,
-    "has no unit; write " + std::string(number) + std::string(likely.name) + " (" + listOf(units) +
-      ")");
+    "has no unit; write " + std::string(number) + std::string(likely.name) + " (" +
+      listed(units, &Unit::name) + ")");
 }
 
 const Unit& unitNamed(std::string_view name, Quantity kind, std::string_view what,
@@ -129,7 +120,8 @@ const Unit& unitNamed(std::string_view name, Quantity kind, std::string_view wha
   {
     refuseBare(what, text, number, units.front(), units);
   }
-  refuse(what, text, "has the unit " + inQuotes(name) + "; use one of " + listOf(units));
+  refuse(
+    what, text, "has the unit " + inQuotes(name) + "; use one of " + listed(units, &Unit::name));
 }
 
 double toSi(double number, const Unit& unit)

@@ -6,6 +6,7 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 #include "haptics/units.h"
 
 #include <nlohmann/json.hpp>
@@ -105,12 +106,8 @@ std::string nearestNames(std::string_view name, std::span<const TissuePreset> ti
   std::ranges::transform(tissues, std::back_inserter(names), &TissuePreset::name);
   std::ranges::stable_sort(
     names, {}, [name](const std::string& other) { return editsBetween(name, other); });
-  std::string list;
-  for (std::size_t i = 0; i < std::min(kNames, names.size()); ++i)
-  {
-    list += (i == 0 ? "" : ", ") + names[i];
-  }
-  return list;
+  names.resize(std::min(kNames, names.size()));
+  return listed(names);
 }
 
 } // namespace

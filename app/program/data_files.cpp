@@ -1,6 +1,7 @@
 #include "app/program/data_files.h"
 
 #include "haptics/error.h"
+#include "haptics/files/listed.h"
 #include "haptics/files/prefix.h"
 
 #include <cstdlib>
@@ -26,12 +27,7 @@ std::string namesBeside(const std::filesystem::path& file)
       names.insert(entry.path().stem().string());
     }
   }
-  std::string list;
-  for (const std::string& name : names)
-  {
-    list += (list.empty() ? "" : ", ") + name;
-  }
-  return list;
+  return listed(names);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "calibration/figures/palette.h"
 #include "haptics/error.h"
+#include "haptics/files/listed.h"
 #include "haptics/files/replace_file.h"
 
 #include <fstream>
@@ -233,7 +234,7 @@ void writeSection(std::ostream& out, const std::filesystem::path& folder, const 
     }
     else
     {
-      others += (others.empty() ? "" : ", ") + fileLink(table.name + ".csv");
+      addListed(others, fileLink(table.name + ".csv"));
     }
   }
   out << "<p>All numbers of this part: " << (others.empty() ? "" : others + ", ")

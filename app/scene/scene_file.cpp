@@ -13,6 +13,7 @@
 #include "app/stiffness/stiffness_text.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 
 #include <nlohmann/json.hpp>
 
@@ -259,12 +260,7 @@ std::string shippedScenes()
     }
   }
   std::sort(names.begin(), names.end());
-  std::string text;
-  for (const std::string& name : names)
-  {
-    text.append(text.empty() ? "" : ", ").append(name);
-  }
-  return text;
+  return listed(names);
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "app/session/device_words.h"
 
+#include "haptics/files/listed.h"
+
 #include <array>
 
 namespace palp
@@ -93,7 +95,7 @@ std::string describeFlags(std::uint32_t flags)
   {
     if ((flags & static_cast<std::uint32_t>(words.flag)) != 0)
     {
-      text.append(text.empty() ? "" : ", ").append(words.text);
+      addListed(text, words.text);
     }
   }
   return text;

@@ -6,6 +6,7 @@
 #include "app/sweep/sweep_range.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 #include "haptics/files/replace_file.h"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ void refuseUnknown(const Sweep& sweep, const Texts& texts, const CommandOptions&
   {
     for (const std::string& name : *part)
     {
-      known += (known.empty() ? "" : ", ") + name;
+      addListed(known, name);
     }
   }
   for (const auto& [name, values] : texts)

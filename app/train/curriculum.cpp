@@ -6,6 +6,7 @@
 #include "app/train/training_text.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 #include "haptics/units.h"
 
 #include <nlohmann/json.hpp>
@@ -113,13 +114,9 @@ const TrainingLevel& Curriculum::level(const std::string& name, const std::strin
   const auto found = std::ranges::find(levels, name, &TrainingLevel::name);
   if (found == levels.end())
   {
-    std::string names;
-    for (const TrainingLevel& one : levels)
-    {
-      names += (names.empty() ? "" : ", ") + one.name;
-    }
-    throw Error(
-      ErrorCode::BadValue, what + ": " + inQuotes(name) + " is no level; expected one of " + names);
+    throw Error(ErrorCode::BadValue,
+      what + ": " + inQuotes(name) + " is no level; expected one of " +
+        listed(levels, &TrainingLevel::name));
   }
   return *found;
 }

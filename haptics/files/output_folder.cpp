@@ -1,6 +1,7 @@
 #include "haptics/files/output_folder.h"
 
 #include "haptics/error.h"
+#include "haptics/files/listed.h"
 #include "haptics/files/replace_file.h"
 
 #include <algorithm>
@@ -166,7 +167,7 @@ std::string OutputFolder::there(const std::vector<std::string>& names) const
     }
     if (isThere(folder_ / name))
     {
-      found.append(found.empty() ? "" : ", ").append(name);
+      addListed(found, name);
     }
   }
   if (earlier_ == Earlier::Refuse && !found.empty())

@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 #include "haptics/files/prefix.h"
 #include "haptics/surface/sampling/area_darts.h"
 #include "haptics/units.h"
@@ -126,7 +127,7 @@ std::map<float, double> youngByValue(
       std::string known;
       for (auto label = there.begin(); label != there.end() && known.size() < 80; ++label)
       {
-        known += (known.empty() ? "" : ", ") + shortest(*label);
+        addListed(known, shortest(*label));
       }
       refuseMap(file, "no voxel has the label '" + one.label + "'; there are " + known);
     }

@@ -9,6 +9,7 @@
 #include "calibration/tables/organ_table.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -79,8 +80,7 @@ std::string described(const OrganTable& table)
   std::string text;
   for (std::size_t i = 1; i < kWhy.size(); ++i)
   {
-    text +=
-      counts[i] == 0 ? "" : (text.empty() ? "" : ", ") + std::to_string(counts[i]) + " " + kWhy[i];
+    counts[i] > 0 ? addListed(text, std::to_string(counts[i]) + " " + kWhy[i]) : void();
   }
   return text.empty() ? "all answered for" : "cannot answer for " + text;
 }

@@ -5,6 +5,7 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 
 #include <algorithm>
 #include <charconv>
@@ -49,13 +50,9 @@ void keepLargest(ResultRows& table, const std::string& largest, const std::strin
   const auto column = std::ranges::find(table.titles, largest);
   if (column == table.titles.end())
   {
-    std::string titles;
-    for (const std::string& title : table.titles)
-    {
-      titles += (titles.empty() ? "" : ", ") + title;
-    }
     throw Error(ErrorCode::BadValue,
-      "--largest: " + inQuotes(largest) + " is no column of " + file + "; there are " + titles);
+      "--largest: " + inQuotes(largest) + " is no column of " + file + "; there are " +
+        listed(table.titles));
   }
   const auto at = static_cast<std::size_t>(column - table.titles.begin());
   const auto best =

@@ -4,6 +4,7 @@
 #include "calibration/figures/palette.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 
 #include <algorithm>
 #include <array>
@@ -62,13 +63,8 @@ void refuseMissing(const SweepPlot& plot, const std::vector<std::string>& column
   {
     if (!column.empty() && std::ranges::find(columns, column) == columns.end())
     {
-      std::string all;
-      for (auto each = columns.begin() + 1; each != columns.end(); ++each)
-      {
-        all.append(all.empty() ? "" : ", ").append(*each);
-      }
       refusePlot(plot,
-        "there is no column " + inQuotes(column) + " but " + all +
+        "there is no column " + inQuotes(column) + " but " + listed(std::span(columns).subspan(1)) +
           "; change the plot and plan again, which keeps what is finished");
     }
   }

@@ -1,6 +1,7 @@
 #include "haptics/devices/hid/wooden_haptics.h"
 
 #include "haptics/error.h"
+#include "haptics/files/listed.h"
 
 #include <algorithm>
 #include <charconv>
@@ -61,16 +62,6 @@ std::string readValues(std::string_view text, const Key& key)
   return nextWord(text).empty() ? "" : std::string(key.name) + " has more values than it takes";
 }
 
-std::string namesOf(std::span<const Key> keys)
-{
-  std::string names;
-  for (const Key& key : keys)
-  {
-    names += (names.empty() ? "" : ", ") + std::string(key.name);
-  }
-  return names;
-}
-
 // one key in a line
 void readKeys(std::string_view text, std::span<Key> keys, const std::string& name)
 {
@@ -89,7 +80,8 @@ void readKeys(std::string_view text, std::span<Key> keys, const std::string& nam
     const auto key = std::ranges::find(keys, word, &Key::name);
     if (key == keys.end())
     {
-      refuse(line, "unknown key '" + std::string(word) + "'; expected one of " + namesOf(keys));
+      refuse(line,
+        "unknown key '" + std::string(word) + "'; expected one of " + listed(keys, &Key::name));
     }
     if (nextWord(row) != "=")
     {
@@ -107,7 +99,7 @@ void readKeys(std::string_view text, std::span<Key> keys, const std::string& nam
   if (std::ranges::none_of(keys, &Key::given))
   {
     throw Error(ErrorCode::BadFile,
-      name + ": tells nothing of an arm; give at least one of " + namesOf(keys));
+      name + ": tells nothing of an arm; give at least one of " + listed(keys, &Key::name));
   }
 }
 
