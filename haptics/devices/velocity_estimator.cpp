@@ -1,13 +1,14 @@
 #include "haptics/devices/velocity_estimator.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace palp
 {
 namespace
 {
 
+constexpr double kTouching = 1.0 + 1e-9; // of a quantum: encoders are often a whole one off
 // the sum of ten periods may be a rounding error more than ten times a period
 constexpr double kLongestWindow = 2.0 * VelocityEstimator::kLongestDelay * (1.0 + 1e-9); // [s]
 
@@ -31,26 +32,28 @@ double VelocityEstimator::axis(int which) const noexcept
 {
   const double newest = positions_[newest_][which];
   double velocity = 0.0;
+  double least =
+    -std::numeric_limits<double>::infinity(); // slopes of lines that pass by all others
+  double largest = -least;
   for (std::size_t window = 1; window < count_; ++window)
   {
     if (window > 1 && ages_[slot(window)] > kLongestWindow)
     {
       break;
     }
-    const double slope = (newest - positions_[slot(window)][which]) / ages_[slot(window)];
-    for (std::size_t i = 1; i < window; ++i)
+    const double age = ages_[slot(window)];
+    const double slope = (newest - positions_[slot(window)][which]) / age;
+    if (slope < least || slope > largest)
     {
-      const double onLine = newest - slope * ages_[slot(i)];
-      if (std::abs(positions_[slot(i)][which] - onLine) > quantum_)
-      {
-        return velocity;
-      }
+      break;
     }
     velocity = slope;
     if (quantum_ == 0.0)
     {
       break;
     }
+    least = std::max(least, slope - kTouching * quantum_ / age);
+    largest = std::min(largest, slope + kTouching * quantum_ / age);
   }
   return velocity;
 }

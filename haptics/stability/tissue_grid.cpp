@@ -41,7 +41,8 @@ std::shared_ptr<const Surface> block()
       { 1, 5, 4 }, { 2, 6, 3 }, { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } });
 }
 
-std::shared_ptr<const Scene> sceneOf(const Tissue& tissue)
+std::shared_ptr<const Scene> sceneOf(
+  const Tissue& tissue, const std::shared_ptr<const Surface>& surface)
 {
   LawSettings settings{ .mode = LawMode::Corrected,
     .constitution = ConstitutiveModel::Linear,
@@ -52,7 +53,7 @@ std::shared_ptr<const Scene> sceneOf(const Tissue& tissue)
     settings.relaxation.add({ 0.5 * tissue.relaxes, 0.5 });
   }
   auto scene = std::make_shared<Scene>();
-  scene->surface = block();
+  scene->surface = surface;
   scene->law = ForceLaw(
     SphereTip{ .radius = 10.0_mm }, makeMaterial(tissue.modulus, kPoisson), std::move(settings));
   scene->forceLimit = 4.0;
@@ -86,6 +87,7 @@ std::vector<StabilityCase> tissueCases(int count)
   const Levels relaxes = levels({ 0.0, 0.4, 0.9 });
   const Levels friction = levels({ 0.0, 0.3, 1.0 });
   const Levels nodule = levels({ 1.0, 0.2, 10.0 });
+  const std::shared_ptr<const Surface> surface = block();
   std::map<std::array<double, 4>, std::shared_ptr<const Scene>> scenes;
   std::vector<StabilityCase> cases;
   for (int i = 0; i < count; ++i)
@@ -93,7 +95,7 @@ std::vector<StabilityCase> tissueCases(int count)
     const Tissue tissue{ modulus[i], relaxes[i], friction[i], nodule[i] };
     std::shared_ptr<const Scene>& scene =
       scenes[{ tissue.modulus, tissue.relaxes, tissue.friction, tissue.nodule }];
-    scene = scene != nullptr ? scene : sceneOf(tissue);
+    scene = scene != nullptr ? scene : sceneOf(tissue, surface);
     StabilityCase made{ .name = "arm at tissue that remembers",
       .material = makeMaterial(tissue.modulus, kPoisson),
       .tip = scene->law.tip(),

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
+#include <random>
+#include <vector>
 
 namespace palp
 {
@@ -71,6 +73,63 @@ TEST(VelocityEstimator, IsExactlyZeroAtRest)
     velocity = estimate(Vector3d::Constant(seen(9.9_mm)), 1.0_ms);
   }
   EXPECT_EQ(velocity, Vector3d::Zero());
+}
+
+// by its definition, in whole quanta and periods, where nothing is rounded
+long long slopeWindow(const std::vector<long long>& newestFirst, std::size_t longest)
+{
+  std::size_t window = 1;
+  for (std::size_t next = 2; next <= longest && next < newestFirst.size(); ++next)
+  {
+    const auto periods = static_cast<long long>(next);
+    const long long rise = newestFirst[0] - newestFirst[next];
+    for (std::size_t i = 1; i < next; ++i)
+    {
+      const long long off =
+        (newestFirst[i] - newestFirst[0]) * periods + rise * static_cast<long long>(i);
+      if (std::abs(off) > periods)
+      {
+        return static_cast<long long>(window);
+      }
+    }
+    window = next;
+  }
+  return static_cast<long long>(window);
+}
+
+TEST(VelocityEstimator, TakesTheLongestWindowWhoseLineIsWithinAQuantumOfAll)
+{
+  std::mt19937 random(5);
+  for (const double period : { 0.25_ms, 0.7_ms, 1.0_ms, 3.0_ms })
+  {
+    const auto longest = static_cast<std::size_t>(9.0_ms / period + 1e-6);
+    for (const double drift : { 0.0, 0.3, 1.0, 4.5 })
+    {
+      VelocityEstimator estimate(kQuantum);
+      std::normal_distribution<double> step(drift, 0.6);
+      std::vector<long long> newestFirst{};
+      double place = 1000.0;
+      std::size_t adapted = 0;
+      for (int tick = 0; tick < 4000; ++tick)
+      {
+        place += step(random) * (tick % 400 < 200 ? 1.0 : -0.1);
+        newestFirst.insert(newestFirst.begin(), std::llround(place));
+        newestFirst.resize(std::min<std::size_t>(newestFirst.size(), 41));
+        const double found =
+          estimate(Vector3d(0, 0, static_cast<double>(newestFirst[0]) * kQuantum), period).z();
+        if (tick > 0)
+        {
+          const long long window = slopeWindow(newestFirst, longest);
+          const long long rise = newestFirst[0] - newestFirst[static_cast<std::size_t>(window)];
+          const double expected =
+            static_cast<double>(rise) * kQuantum / (static_cast<double>(window) * period);
+          ASSERT_NEAR(found, expected, 1e-9 + 1e-9 * std::abs(expected)) << period << " " << tick;
+          adapted += window > 1 ? 1 : 0;
+        }
+      }
+      EXPECT_GT(adapted, 400U) << "windows adapt";
+    }
+  }
 }
 
 TEST(VelocityEstimator, WithoutQuantumIsTheBackwardDifference)
