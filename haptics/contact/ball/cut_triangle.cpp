@@ -19,6 +19,7 @@ void cut(CutSide& side, double squaredRadius, double last) noexcept
   if (fromInside && toInside)
   {
     side.isIn = true;
+    side.enter = 0.0;
     side.leave = 1.0;
     return;
   }
@@ -39,7 +40,7 @@ void cut(CutSide& side, double squaredRadius, double last) noexcept
 CutTriangle::CutTriangle(
   const Facet& facet, const Eigen::Vector3d& center, double squaredRadius) noexcept
   : corners{ facet.corners[0] - center, facet.corners[1] - center, facet.corners[2] - center }
-  , q(corners[0].squaredNorm(), corners[1].squaredNorm(), corners[2].squaredNorm())
+  , q{ corners[0].squaredNorm(), corners[1].squaredNorm(), corners[2].squaredNorm() }
 {
   const double height = facet.normal.dot(corners[0]);
   disc = { facet.normal, height, squaredRadius - height * height };
@@ -51,23 +52,20 @@ bool CutTriangle::cutSides(double squaredRadius) noexcept
   for (std::size_t k = 0; k < 3; ++k)
   {
     const Eigen::Vector3d& from = corners[k];
-    const Eigen::Vector3d along = side(k);
     CutSide& one = sides[k];
-    one.squared = along.squaredNorm();
-    one.first = q[static_cast<Eigen::Index>(k)];
-    one.along = from.dot(along);
-    one.cross = disc.normal.dot(from.cross(along));
+    one.vector = corners[kNext[k]] - from;
+    one.squared = one.vector.squaredNorm();
+    one.first = q[k];
+    one.along = from.dot(one.vector);
+    one.cross = tripleProduct(disc.normal, from, one.vector);
     if (one.cross < 0.0 && one.cross * one.cross >= disc.squared * one.squared)
     {
       return false; // the whole disc lies beyond this side
     }
     longest = std::max(longest, one.squared);
+    cut(one, squaredRadius, q[kNext[k]]);
   }
   isStraight = disc.squared > kStraight * longest;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    cut(sides[k], squaredRadius, sides[(k + 1) % 3].first);
-  }
   return disc.squared > 0.0;
 }
 

@@ -41,7 +41,8 @@ DiscIntegral integrateWhole(const CutTriangle& one, double squaredRadius) noexce
   const double area = one.area();
   const Eigen::Vector3d corners = one.corners[0] + one.corners[1] + one.corners[2];
   return { .area = area,
-    .weight = area * (squaredRadius - (one.q.sum() + corners.squaredNorm()) / 12.0),
+    .weight =
+      area * (squaredRadius - (one.q[0] + one.q[1] + one.q[2] + corners.squaredNorm()) / 12.0),
     .slope = 2.0 * kOneThird * area * corners };
 }
 
@@ -97,14 +98,14 @@ DiscIntegral integratePart(const CutTriangle& one, double squaredRadius, RimAngl
     {
       const double length = side.length();
       const double within = squaredRadius * length - side.squares(); // of w
-      straight += within * one.side(k);
+      straight += within * side.vector;
       sum.area += 0.5 * side.cross * length;
       sum.weight += 0.25 * side.cross * (disc * length + within);
     }
   }
   if (one.isStraight)
   {
-    sum = integratePositive(one.area(), squaredRadius - one.q);
+    sum = integratePositive(one.area(), squaredRadius - Eigen::Array3d::Map(one.q.data()));
   }
   else
   {
@@ -154,7 +155,7 @@ double solidAngleOf(
   if (one.isWhole(squaredRadius))
   {
     const auto& p = one.corners;
-    const Eigen::Array3d r = one.q.sqrt();
+    const Eigen::Array3d r = Eigen::Array3d::Map(one.q.data()).sqrt();
     const Eigen::Array3d dots(p[1].dot(p[2]), p[2].dot(p[0]), p[0].dot(p[1]));
     return 2.0 * angleOf(2.0 * one.area() * height, r.prod() + (dots * r).sum());
   }
@@ -206,10 +207,10 @@ SeamIntegral seamsOf(const Facet& facet, const Eigen::Vector3d& center, double s
   for (std::size_t k = 0; reaches && k < 3; ++k)
   {
     const CutSide& side = one.sides[k];
-    const double length = side.length();
-    if (length > 0.0 && (sides >> k & 1U) != 0)
+    if (side.isIn && side.length() > 0.0 && (sides >> k & 1U) != 0)
     {
-      const Eigen::Vector3d across = one.corners[k].cross(one.side(k));
+      const double length = side.length();
+      const Eigen::Vector3d across = one.corners[k].cross(side.vector);
       const double nearer = cubed * inverseCubes(side, across.squaredNorm());
       seams.moment += (kOneThird * squaredRadius * length - 0.2 * side.squares() -
                         2.0 / 15.0 * squaredRadius * nearer) *

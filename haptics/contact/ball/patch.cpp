@@ -24,27 +24,43 @@ constexpr double kNew = 0.1;
 constexpr double kUnsure = 1e-3; // [rad^2]
 constexpr double kSphere = 4.0 * std::numbers::pi;
 
-// how much one of the triangles counts
-struct Counted
+// of the center over the plane of one of the triangles [m]
+double heightOver(const Facet& facet, const PatchBall& ball) noexcept
 {
-  double height;                                    // of the center over its plane [m]
-  double part = 1.0;                                // that counts [-]
-  Eigen::Vector3d change = Eigen::Vector3d::Zero(); // of that part as the center moves [1/m]
-  double byTurning = 0.0;                           // of it over how fast it fades [m]
+  return facet.normal.dot(ball.center - facet.corners[0]);
+}
+
+// how much a triangle counts that fades
+struct Fading
+{
+  Fading(const Facet& facet, const PatchBall& ball, double height) noexcept
+  {
+    const double faced = std::max(0.0, 1.0 + ball.turning * height);
+    const double fall = 6.0 * faced * (1.0 - faced);
+    part = smoothStep(faced);
+    change = fall * ball.turning * facet.normal;
+    byTurning = fall * height;
+  }
+
+  // whether one that the center is so high over does not count in full
+  static bool applies(const PatchBall& ball, double height) noexcept
+  {
+    return 1.0 + ball.turning * height < 1.0;
+  }
+
+  double part;            // that counts [-]
+  Eigen::Vector3d change; // of that part as the center moves [1/m]
+  double byTurning;       // of it over how fast it fades [m]
 };
 
-Counted countedOf(const Facet& facet, const PatchBall& ball) noexcept
+// Sums of what is along the outward normal n, of unit length, and of the same without it as a
+// fourth row: what a processor adds in pairs.
+struct NormalSums
 {
-  Counted one{ facet.normal.dot(ball.center - facet.corners[0]) };
-  if (const double faced = std::max(0.0, 1.0 + ball.turning * one.height); faced < 1.0)
-  {
-    one.part = smoothStep(faced);
-    const double fall = 6.0 * faced * (1.0 - faced);
-    one.change = fall * ball.turning * facet.normal;
-    one.byTurning = fall * one.height;
-  }
-  return one;
-}
+  Eigen::Vector4d weight = Eigen::Vector4d::Zero();                        // [m^4]
+  Eigen::Vector4d area = Eigen::Vector4d::Zero();                          // [m^2]
+  Eigen::Matrix<double, 4, 3> slope = Eigen::Matrix<double, 4, 3>::Zero(); // of weight [m^3]
+};
 
 // sums the triangles in a ball
 class PatchSum
@@ -84,6 +100,7 @@ public:
       return !isWhole;
     };
     tree.search(isToVisit, [&](int i) { add(i); });
+    takeOver();
     patch_.solidAngle = bodyAngle(kSphere * inside, isNear);
     patch_.orientationSum += patch_.normal;
     patch_.orientationWeight += patch_.weight;
@@ -110,8 +127,9 @@ private:
     const auto see = [&](int i)
     {
       const Facet& facet = tree.facets()[at(i)];
-      const Counted one = countedOf(facet, ball_);
-      seen += one.part * seenOf(facet, one.height);
+      const double height = heightOver(facet, ball_);
+      const double part = Fading::applies(ball_, height) ? Fading(facet, ball_, height).part : 1.0;
+      seen += part * seenOf(facet, height);
     };
     tree.search(isNear, see);
     return without - seen;
@@ -133,14 +151,14 @@ private:
     const double over = sum.normal.dot(place) - sum.height;
     const double weighed = from * over + 2.0 * place.dot(turned - sum.heightPlace) -
       sum.normalSquares.dot(place) + sum.heightSquares;
-    patch_.weight += weight;
-    patch_.normal += from * sum.normal + 2.0 * turned - sum.normalSquares;
-    patch_.area += sum.normal;
+    sums_.weight.head<3>() += from * sum.normal + 2.0 * turned - sum.normalSquares;
+    sums_.weight[3] += weight;
+    sums_.area.head<3>() += sum.normal;
+    sums_.area[3] += sum.area;
+    sums_.slope.topRows<3>() += 2.0 * (sum.normalPlace - sum.normal * place.transpose());
+    sums_.slope.row(3) += 2.0 * (sum.place - sum.area * place).transpose();
     patch_.volume -= kCone * over;
     patch_.moment -= byArea_ * over + 0.2 * weighed;
-    patch_.slopes.normal += 2.0 * (sum.normalPlace - sum.normal * place.transpose());
-    patch_.slopes.weight += 2.0 * (sum.place - sum.area * place);
-    patch_.slopes.area += sum.area;
   }
 
   void add(int index) noexcept
@@ -159,40 +177,58 @@ private:
       patch_.volumeFading -= border.volume;
       patch_.rim -= border.rim;
     }
-    const Counted one = countedOf(facet, ball_);
-    const double part = one.part;
-    const double nearer = -one.height * (byArea_ * within.area + 0.2 * within.weight);
-    const double below = -kCone * one.height * within.area;
-    if (part < 1.0)
+    if (const double height = heightOver(facet, ball_); Fading::applies(ball_, height))
     {
-      addFading(facet, within, one, nearer, below);
+      const Fading one(facet, ball_, height);
+      addFaded(facet, within, one, height);
+      add(facet, within, height, one.part, one.part * within.slope + within.weight * one.change);
     }
-    const Eigen::Vector3d slope = part * within.slope + within.weight * one.change;
-    patch_.slopes.normal += facet.normal * slope.transpose();
-    patch_.slopes.weight += slope;
-    patch_.slopes.area += part * within.area;
-    patch_.weight += part * within.weight;
-    patch_.normal += part * within.weight * facet.normal;
-    patch_.area += part * within.area * facet.normal;
-    patch_.volume += part * below;
-    patch_.moment += part * nearer;
-    if (within.rim > 0.0)
+    else
     {
-      const double reached = (squaredRadius_ - one.height * one.height) / (kNew * squaredRadius_);
-      const double rim = part * std::min(1.0, reached) * within.rim;
-      patch_.rim += rim * facet.normal;
-      patch_.solidAngleSlope += rim * one.height;
+      add(facet, within, height, 1.0, within.slope);
     }
   }
 
-  void addFading(const Facet& facet, const DiscIntegral& within, const Counted& one, double nearer,
-    double below) noexcept
+  // @param part   that counts [-]
+  // @param slope  of the weight that counts [m^3]
+  void add(const Facet& facet, const DiscIntegral& within, double height, double part,
+    const Eigen::Vector3d& slope) noexcept
   {
-    const double seen = seenOf(facet, one.height);
+    const Eigen::Vector4d along = facet.normal.homogeneous();
+    sums_.slope.col(0) += slope[0] * along;
+    sums_.slope.col(1) += slope[1] * along;
+    sums_.slope.col(2) += slope[2] * along;
+    sums_.weight += part * within.weight * along;
+    sums_.area += part * within.area * along;
+    patch_.volume += part * below(within, height);
+    patch_.moment += part * nearer(within, height);
+    if (within.rim > 0.0)
+    {
+      const double reached = (squaredRadius_ - height * height) / (kNew * squaredRadius_);
+      const double rim = part * std::min(1.0, reached) * within.rim;
+      patch_.rim += rim * facet.normal;
+      patch_.solidAngleSlope += rim * height;
+    }
+  }
+
+  void takeOver() noexcept
+  {
+    patch_.slopes.normal = sums_.slope.topRows<3>();
+    patch_.slopes.weight = sums_.slope.row(3).transpose();
+    patch_.slopes.area = sums_.area[3];
+    patch_.normal = sums_.weight.head<3>();
+    patch_.weight = sums_.weight[3];
+    patch_.area = sums_.area.head<3>();
+  }
+
+  void addFaded(
+    const Facet& facet, const DiscIntegral& within, const Fading& one, double height) noexcept
+  {
+    const double seen = seenOf(facet, height);
     const double rest = 1.0 - one.part;
     const SeamIntegral seams = seamsOf(facet, ball_.center, squaredRadius_);
-    const double moment = nearer - full_ * seen;
-    const double volume = below - byAngle_ * seen;
+    const double moment = nearer(within, height) - full_ * seen;
+    const double volume = below(within, height) - byAngle_ * seen;
     faded_ += rest * seen;
     patch_.fading += rest * seams.moment - moment * one.change;
     patch_.volumeFading += rest * seams.volume - volume * one.change;
@@ -204,6 +240,18 @@ private:
     patch_.orientationWeight += rest * within.weight;
   }
 
+  // what a triangle adds to the moment [m^5]
+  [[nodiscard]] double nearer(const DiscIntegral& within, double height) const noexcept
+  {
+    return -height * (byArea_ * within.area + 0.2 * within.weight);
+  }
+
+  // and to the volume [m^3]
+  [[nodiscard]] static double below(const DiscIntegral& within, double height) noexcept
+  {
+    return -kCone * height * within.area;
+  }
+
   const Surface& surface_;
   PatchBall ball_;
   double squaredRadius_;
@@ -212,6 +260,7 @@ private:
   double full_;    // of w [m^5]
   RimAngle rim_;
   double faded_ = 0.0; // solid angle that does not count [rad^2]
+  NormalSums sums_;
   Patch patch_;
 };
 
