@@ -2,6 +2,7 @@
 
 #include "haptics/numerics/monotone_cubic.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -114,16 +115,14 @@ BicubicSpline::BicubicSpline(
 BicubicSpline::Value BicubicSpline::operator()(
   const SplineBasis& x, const SplineBasis& y) const noexcept
 {
-  SplineBasis::Pieces across{}; // the curve over y at x
-  SplineBasis::Pieces change{}; // and how it changes with x
+  Eigen::Array4d across = Eigen::Array4d::Zero(); // the curve over y at x
+  Eigen::Array4d change = Eigen::Array4d::Zero(); // and how it changes with x
   for (std::size_t i = 0; i < kPieces; ++i)
   {
-    const double* row = coefficients_.data() + (x.low + i) * coefficientsOn(y_) + y.low;
-    for (std::size_t k = 0; k < kPieces; ++k)
-    {
-      across[k] += x.value[i] * row[k];
-      change[k] += x.slope[i] * row[k];
-    }
+    const Eigen::Map<const Eigen::Array4d> row(
+      coefficients_.data() + (x.low + i) * coefficientsOn(y_) + y.low);
+    across += x.value[i] * row;
+    change += x.slope[i] * row;
   }
   return { sum(across.data(), y.value), sum(change.data(), y.value), sum(across.data(), y.slope),
     sum(across.data(), y.bend) };

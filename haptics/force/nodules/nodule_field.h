@@ -60,7 +60,7 @@ public:
     /// @realtime     pure; no allocation, no lock, no exception
     [[nodiscard]] NoduleResponse operator()(double depth) const noexcept
     {
-      return field_->energy_(depth, place_).response;
+      return field_->energy_.response(depth, place_);
     }
 
     /// Besides that, on the tool [N]; as the other.

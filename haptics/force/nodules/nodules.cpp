@@ -76,12 +76,12 @@ Nodules::Place Nodules::at(std::span<const double> squares) const noexcept
   return place;
 }
 
-Nodules::Answer Nodules::operator()(double depth, const Place& place) const noexcept
+NoduleResponse Nodules::response(
+  double depth, const Place& place, std::span<double> repulsion) const noexcept
 {
-  Answer answer;
   if (!(depth > 0.0 && std::isfinite(depth)))
   {
-    return answer;
+    return {};
   }
   const double q = std::sqrt(depth);
   // the end of the tables is approached and never reached, so that nothing breaks off there
@@ -98,7 +98,10 @@ Nodules::Answer Nodules::operator()(double depth, const Place& place) const noex
     sum.value += first.value;
     sum.slope += first.slope * one.byRoot;
     sum.bend += first.bend * one.byRoot * one.byRoot + first.slope * one.byRootBend;
-    answer.repulsion[i] = first.slope * one.bySquare;
+    if (!repulsion.empty())
+    {
+      repulsion[i] = first.slope * one.bySquare;
+    }
   }
   const increment::Series bound = increment::bounded(sum.value, kSumBoundedFrom, kSumBound);
   const increment::Series whole = increment::ofFirstOrder(bound.value);
@@ -115,14 +118,13 @@ Nodules::Answer Nodules::operator()(double depth, const Place& place) const noex
     plain.bend * whole.value + 2.0 * plain.slope * slope + plain.value * bend;
   const double gSlope = gTable * root.slope;
   const double gBend = gTableBend * root.slope * root.slope + gTable * root.bend;
-  answer.response = { .energy = depth * depth * g,
+  for (double& each : repulsion)
+  {
+    each *= -2.0 * depth * depth * plain.value * bySum;
+  }
+  return { .energy = depth * depth * g,
     .force = depth * (2.0 * g + 0.5 * q * gSlope),
     .stiffness = 2.0 * g + 1.75 * q * gSlope + 0.25 * depth * gBend };
-  for (std::size_t i = 0; i < tables_.size(); ++i)
-  {
-    answer.repulsion[i] *= -2.0 * depth * depth * plain.value * bySum;
-  }
-  return answer;
 }
 
 void checkApart(std::span<const Nodule> nodules, std::span<const Eigen::Vector3d> places)

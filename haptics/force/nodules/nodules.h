@@ -63,7 +63,17 @@ public:
   /// @param depth  [m]; 0 or less, or not finite: no contact
   /// @param place  of these nodules
   /// @realtime     pure; no allocation, no lock, no exception
-  [[nodiscard]] Answer operator()(double depth, const Place& place) const noexcept;
+  [[nodiscard]] Answer operator()(double depth, const Place& place) const noexcept
+  {
+    Answer answer;
+    answer.response = response(depth, place, std::span(answer.repulsion).first(size()));
+    return answer;
+  }
+
+  /// The response alone, in less time.
+  /// @param repulsion  gets that of each nodule, as Answer tells it; empty: of none
+  [[nodiscard]] NoduleResponse response(
+    double depth, const Place& place, std::span<double> repulsion = {}) const noexcept;
 
   /// The same at once.
   [[nodiscard]] Answer operator()(double depth, std::span<const double> squares) const noexcept
