@@ -194,12 +194,18 @@ private:
   void add(const Facet& facet, const DiscIntegral& within, double height, double part,
     const Eigen::Vector3d& slope) noexcept
   {
-    const Eigen::Vector4d along = facet.normal.homogeneous();
-    sums_.slope.col(0) += slope[0] * along;
-    sums_.slope.col(1) += slope[1] * along;
-    sums_.slope.col(2) += slope[2] * along;
-    sums_.weight += part * within.weight * along;
-    sums_.area += part * within.area * along;
+    const Eigen::Vector2d across(facet.normal[0], facet.normal[1]);
+    const Eigen::Vector2d rest(facet.normal[2], 1.0);
+    const auto addTo = [&](auto sum, double by)
+    {
+      sum.template head<2>() += by * across;
+      sum.template tail<2>() += by * rest;
+    };
+    addTo(sums_.slope.col(0), slope[0]);
+    addTo(sums_.slope.col(1), slope[1]);
+    addTo(sums_.slope.col(2), slope[2]);
+    addTo(sums_.weight.col(0), part * within.weight);
+    addTo(sums_.area.col(0), part * within.area);
     patch_.volume += part * below(within, height);
     patch_.moment += part * nearer(within, height);
     if (within.rim > 0.0)

@@ -2,6 +2,7 @@
 
 #include "haptics/numerics/angle.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
