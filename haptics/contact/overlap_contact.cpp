@@ -19,6 +19,16 @@ namespace
 constexpr double kSteepestSlope = 4.9; // [-] most of a slope of a tool without a round nose
 constexpr double kFacing = 0.1; // [-] cosine over which the back of a sheet becomes its front
 
+// from the apex up to where a tool leaves an even body; not above 0 where it is outside [m]
+double insideOf(const Surface& surface, const ToolPose& pose) noexcept
+{
+  constexpr double kLeast = 0.5; // [-] cosine
+  const ClosestPoint nearest =
+    findClosestPoint(surface, pose.apex, std::numeric_limits<double>::infinity());
+  const double cosine = (pose.apex - nearest.point).normalized().dot(pose.axis);
+  return -nearest.distance / std::max(kLeast, cosine);
+}
+
 // What below a flat counts as its shape: about its middle and along its axis, whatever of the body
 // the flat meets, which comes in and goes out at once.
 ShapeBall belowFlat(const ToolFrame& frame, const Immersion& flat, const Sloped& wide,
@@ -52,10 +62,15 @@ ShapeBall belowMiddle(const ToolFrame& frame, const Overlap& all, const Contact&
 Contact overlapContact(
   const Surface& surface, const Tip& tip, const ToolPose& pose, CurvatureOf of) noexcept
 {
-  const ToolSolid solid(tip);
+  ToolSolid solid(tip);
   const ToolFrame frame(pose);
   const auto& axes = frame.axes;
-  const Overlap all = overlapOf(surface, solid, frame);
+  Overlap all = overlapOf(surface, solid, frame);
+  if (all.isBeyond) // another part of the body, or the tool is as deep in it
+  {
+    solid = ToolSolid(tip, insideOf(surface, pose));
+    all = overlapOf(surface, solid, frame);
+  }
   const bool isFlat = solid.isFlat();
   if (!((isFlat ? all.lift : all.volume) > 0.0 && all.weight > 0.0))
   {

@@ -26,6 +26,7 @@ class Sums
 public:
   Sums(const ToolSolid& solid) noexcept
     : solid_(&solid)
+    , beyond_(solid.beyond())
   {
   }
 
@@ -41,6 +42,10 @@ public:
       extent = std::max(extent, (corner - middle).head<2>().norm());
     }
     const double nearest = kInscribed * (middle.head<2>().norm() - extent);
+    if (high > beyond_.low && nearest <= beyond_.radius)
+    {
+      addBeyond(corners, normal, isBorder);
+    }
     for (const Layer& layer : solid_->layers())
     {
       const bool isLowest = &layer == solid_->layers().data();
@@ -56,20 +61,7 @@ public:
         continue;
       }
       addPiece(layer, piece, normal, isLowest);
-      for (std::size_t k = 0; k < piece.size(); ++k)
-      {
-        const std::int8_t bound = piece.bound(k);
-        if (bound < codeOf(Bound::Bottom) && isBorder[at(bound)])
-        {
-          const Eigen::Vector3d& from = piece[k];
-          const Eigen::Vector3d& to = piece[piece.after(k)];
-          sum_.area -= acrossBorder(layer, layer.volume, from, to);
-          if (solid_->isFlat())
-          {
-            sum_.liftArea -= acrossBorder(layer, layer.lift, from, to);
-          }
-        }
-      }
+      addBorders(layer, piece, isBorder);
     }
   }
 
@@ -126,6 +118,41 @@ private:
     return (layer.atPole(field) * sums.area + 0.25 * field.linear * rise +
              field.twist * sums.twist) *
       normal.dot(piece[0] - layer.pole * Eigen::Vector3d::UnitZ());
+  }
+
+  void addBorders(
+    const Layer& layer, const Piece& piece, const std::array<bool, 3>& isBorder) noexcept
+  {
+    for (std::size_t k = 0; k < piece.size(); ++k)
+    {
+      const std::int8_t bound = piece.bound(k);
+      if (bound < codeOf(Bound::Bottom) && isBorder[at(bound)])
+      {
+        const Eigen::Vector3d& from = piece[k];
+        const Eigen::Vector3d& to = piece[piece.after(k)];
+        sum_.area -= acrossBorder(layer, layer.volume, from, to);
+        if (solid_->isFlat())
+        {
+          sum_.liftArea -= acrossBorder(layer, layer.lift, from, to);
+        }
+      }
+    }
+  }
+
+  // what went into the shaft leaves the body there
+  void addBeyond(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& normal,
+    const std::array<bool, 3>& isBorder) noexcept
+  {
+    Piece piece(corners);
+    clipTo(beyond_, piece);
+    if (piece.size() > 2)
+    {
+      const Integrals sums = integralsOf(beyond_, piece, normal);
+      sum_.volume += through(beyond_, beyond_.volume, sums, piece, normal);
+      sum_.lift += through(beyond_, beyond_.lift, sums, piece, normal);
+      addBorders(beyond_, piece, isBorder);
+      sum_.isBeyond = true;
+    }
   }
 
   void addPiece(
@@ -206,6 +233,7 @@ private:
   }
 
   const ToolSolid* solid_;
+  Layer beyond_;
   Overlap sum_;
 };
 
@@ -235,7 +263,7 @@ Overlap overlapOf(const Surface& surface, const ToolSolid& solid, const ToolFram
       middle[k] = 0.5 * (low + high) - frame.apex[k];
       size += 0.25 * (high - low) * (high - low);
     }
-    const double along = std::clamp(middle.dot(up), 0.0, solid.top());
+    const double along = std::max(0.0, middle.dot(up));
     size = std::sqrt(size);
     const double reach = solid.outerRadiusBelow(along + size) + size;
     return (middle - along * up).squaredNorm() < reach * reach;

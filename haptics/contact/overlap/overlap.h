@@ -30,7 +30,8 @@ struct ToolFrame
 /// square of how much it does: the walls of an edge do not turn it.
 struct Overlap
 {
-  double volume = 0.0;                                  ///< [m^3]
+  bool isBeyond = false; ///< whether there is some of the surface beyond the shaft, too
+  double volume = 0.0;   ///< [m^3]
   Eigen::Vector3d area = Eigen::Vector3d::Zero();       ///< of the outward normal: -d volume [m^2]
   double lift = 0.0;                                    ///< of it, over a flat at the apex [m^4]
   Eigen::Vector3d liftArea = Eigen::Vector3d::Zero();   ///< as area: -d lift [m^3]

@@ -11,9 +11,11 @@ namespace palp
 namespace
 {
 
-constexpr double kShaft = 4.0;  // [-] base radii of it that count,
-constexpr double kLong = 0.06;  // [m] and at least, what is longer may be in another part of a body
-constexpr double kCorner = 0.2; // [-] of the base: the corner of its radius
+// more of the shaft may be in another part of a body
+constexpr double kShaft = 4.0;     // [-] base radii of it that count,
+constexpr double kBeside = 3.0;    // and that many more than the tool is in, for one that leans
+constexpr double kEndless = 1e3;   // [m]
+constexpr double kCorner = 0.2;    // [-] of the base: the corner of its radius
 constexpr double kFlattest = 1e-9; // [-] of the base: a height that is none
 
 struct Ring
@@ -47,7 +49,7 @@ const Ring kRing = makeRing();
 
 } // namespace
 
-ToolSolid::ToolSolid(const Tip& tip) noexcept
+ToolSolid::ToolSolid(const Tip& tip, double inside) noexcept
   : flat_(palp::flatRadius(tip))
 {
   const double base = baseRadius(tip);
@@ -67,7 +69,20 @@ ToolSolid::ToolSolid(const Tip& tip) noexcept
       from = to;
     }
   }
-  add(low, low + std::max(kShaft * base, kLong), base, base);
+  add(low, std::max(low + kShaft * base, inside + kBeside * base), base, base);
+}
+
+ToolSolid::Layer ToolSolid::beyond() const noexcept
+{
+  Layer layer = layers_[count_ - 1];
+  for (Field Layer::*field : { &Layer::volume, &Layer::lift })
+  {
+    const double entering = layer.upward(layer.*field, layer.high);
+    layer.*field = { .constant = 0.0, .linear = 0.0, .entering = entering };
+  }
+  layer.low = layer.high;
+  layer.high = kEndless;
+  return layer;
 }
 
 void ToolSolid::add(double low, double high, double from, double to) noexcept

@@ -76,8 +76,10 @@ public:
     }
   };
 
-  /// @param tip  checked, without a round nose
-  explicit ToolSolid(const Tip& tip) noexcept;
+  /// Four base radii of the shaft count, and three more than what of the tool is in the body.
+  /// @param tip     checked, without a round nose
+  /// @param inside  from the apex up to where the tool leaves the body [m]; not above 0: outside
+  explicit ToolSolid(const Tip& tip, double inside = 0.0) noexcept;
 
   /// From the apex up; the last is the shaft.
   [[nodiscard]] std::span<const Layer> layers() const noexcept
@@ -89,6 +91,9 @@ public:
   {
     return layers_[count_ - 1].high;
   }
+  /// Where nothing more is counted, whatever of the body is there: all that went into the shaft
+  /// goes on in it.
+  [[nodiscard]] Layer beyond() const noexcept;
   /// Of the shaft, to its corners [m].
   [[nodiscard]] double outerRadius() const noexcept;
 
