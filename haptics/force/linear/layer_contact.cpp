@@ -18,6 +18,8 @@ constexpr double kClose = 1e-8;      // of the depth; the force errs by its squa
 constexpr double kLongestStep = 4.0; // factor by which a step may change the depth
 constexpr int kHollowSamples = 700;  // down to a thousandth of the base
 constexpr double kHollowSpacing = 0.99;
+constexpr double kHollowest = 1.2;    // [-] of the hollowness that is taken as it is,
+constexpr double kHollowCorner = 0.2; // where a corner would be a step of the force aside
 
 } // namespace
 
@@ -57,7 +59,10 @@ LayerContact LayerContact::coated(const Coatings& coatings, const Material& body
 
 double LayerContact::allowedCurvature(double curvature) const noexcept
 {
-  return mostHollow_ > 0.0 ? std::max(curvature, -mostHollow_) : 0.0;
+  const double most = -kHollowest * mostHollow_;
+  return mostHollow_ > 0.0
+    ? smoothMax(Sloped{ curvature }, Sloped{ most }, kHollowCorner * mostHollow_).value
+    : 0.0;
 }
 
 double LayerContact::layerThickness(double thickness, double curvature) const noexcept

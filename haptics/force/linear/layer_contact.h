@@ -42,8 +42,8 @@ public:
   [[nodiscard]] LinearContact operator()(
     double depth, double thickness, double curvature) const noexcept;
 
-  /// The curvature that is applied: half the hollowness at which the tip no longer touches with
-  /// its apex first is the most, and a flat tip takes none.
+  /// The curvature that is applied: as it is to half the hollowness at which the tip no longer
+  /// touches with its apex first, then leveling off at 0.6 of that; a flat tip takes none.
   [[nodiscard]] double allowedCurvature(double curvature) const noexcept;
 
   /// Thickness of the flat layer that holds the tool up as much as a body of this thickness whose

@@ -228,9 +228,10 @@ TEST(LayerContact, AHollowSurfaceIsNoMoreHollowThanAStepOfTheTip)
   const Tip stepped = ProfileTip{ std::make_shared<const Profile>(
     std::vector<Profile::Point>{ { 0.0, 0.0 }, { 5.0_mm, 0.1_mm }, { 6.0_mm, 50.0_mm } }) };
   const LayerContact law(stepped, 0.33, Base::Bonded);
-  const double most = std::numbers::pi / 4.0 * 0.1_mm / (5.0_mm * 5.0_mm);
-  EXPECT_GE(law.allowedCurvature(-100.0), -most * (1.0 + 1e-9));
-  EXPECT_LE(law.allowedCurvature(-100.0), -0.98 * most);
+  const double step = std::numbers::pi / 2.0 * 0.1_mm / (5.0_mm * 5.0_mm);
+  EXPECT_GE(law.allowedCurvature(-100.0), -0.6 * step * (1.0 + 1e-9));
+  EXPECT_LE(law.allowedCurvature(-100.0), -0.98 * 0.6 * step);
+  EXPECT_EQ(law.allowedCurvature(-0.49 * step), -0.49 * step); // as it is to half of that
   double before = 0.0;
   for (int i = 1; i <= 500; ++i)
   {
