@@ -33,8 +33,8 @@ MappedContact::MappedContact(const OrganModel& model, const Surface& surface, do
   const HomogeneousPress press(law, {}, kWide * kWide * radius * radius / sphere);
   const auto nearest = [&](double wanted)
   {
-    Contact found;
-    for (std::size_t k = 0; k < press.knots().size(); ++k)
+    Contact found{ .knot = 0, .radius = press.knots().front().radius };
+    for (std::size_t k = 1; k < press.knots().size(); ++k)
     {
       const double here = press.knots()[k].radius;
       found =

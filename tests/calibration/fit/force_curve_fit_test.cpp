@@ -47,7 +47,7 @@ constexpr double kOffset = -0.05;   // [N]
 
 Measured pressed(const Press& press, std::mt19937& random)
 {
-  std::normal_distribution<double> noise(0.0, press.noise * kScale);
+  std::normal_distribution<double> noise;
   Measured measured{ Eigen::VectorXd(press.rows), Eigen::VectorXd(press.rows) };
   for (int i = 0; i < press.rows; ++i)
   {
@@ -56,7 +56,7 @@ Measured pressed(const Press& press, std::mt19937& random)
     measured.depths[i] = kContact + depth;
     measured.forces[i] = kOffset +
       kScale * std::pow(std::max(0.0, depth) / 5.0_mm, press.exponent) +
-      (press.noise > 0.0 ? noise(random) : 0.0);
+      (press.noise > 0.0 ? press.noise * kScale * noise(random) : 0.0);
   }
   return measured;
 }
