@@ -316,33 +316,6 @@ TEST(CorrectedLaw, ABallIsThatOfFiniteElementsHoweverItIsHeldOrFlagged)
   EXPECT_GE(believed, 70); // of 160
 }
 
-// the force aside is what the energy changes by as the curvature does: a corner would be a step
-TEST(CorrectedLaw, HasNoCornerHoweverHollowTheSurface)
-{
-  constexpr double kStep = 0.002; // of the curvature that the tool has
-  for (const Tip& tip : { Tip(SphereTip{ 10.0_mm }), Tip(ParaboloidTip{ 10.0_mm }),
-         Tip(BluntConeTip{ 45.0_deg, 2.0_mm, 8.0_mm }), Tip(ConeTip{ 45.0_deg, 10.0_mm }) })
-  {
-    const ForceLaw law(tip, kTissue, { .mode = LawMode::Corrected });
-    for (const double thickness : { 25.0_mm, std::numeric_limits<double>::infinity() })
-    {
-      const auto force = [&](double bent)
-      {
-        return law(
-          { .depth = 3.0_mm, .thickness = thickness, .surfaceCurvature = bent / baseRadius(tip) })
-          .force;
-      };
-      for (double bent = -1.5; bent < 0.3; bent += kStep)
-      {
-        const double before = force(bent - kStep) - force(bent - 2.0 * kStep);
-        const double after = force(bent + kStep) - force(bent);
-        EXPECT_LT(std::abs(after - before), 0.0006 * force(bent))
-          << tip.index() << " " << bent << " " << thickness;
-      }
-    }
-  }
-}
-
 TEST(CorrectedLaw, DoesNotAllocate)
 {
   const ForceLaw law(SphereTip{ 10.0_mm }, kTissue,

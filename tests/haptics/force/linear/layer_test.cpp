@@ -241,5 +241,28 @@ TEST(LayerContact, AHollowSurfaceIsNoMoreHollowThanAStepOfTheTip)
   }
 }
 
+// the force aside is what the energy changes by as the curvature does: a corner would be a step
+TEST(LayerContact, HasNoCornerHoweverHollowTheSurface)
+{
+  constexpr double kStep = 0.002; // of the curvature that the tool has
+  for (const Tip& tip : { Tip(SphereTip{ 10.0_mm }), Tip(ParaboloidTip{ 10.0_mm }),
+         Tip(BluntConeTip{ 45.0_deg, 2.0_mm, 8.0_mm }), Tip(ConeTip{ 45.0_deg, 10.0_mm }) })
+  {
+    const LayerContact law(tip, 0.33, Base::Bonded);
+    for (const double thickness : { 25.0_mm, kEndless })
+    {
+      const auto force = [&](double bent)
+      { return law(3.0_mm, thickness, bent / baseRadius(tip)).force; };
+      for (double bent = -1.5; bent < 0.3; bent += kStep)
+      {
+        const double before = force(bent - kStep) - force(bent - 2.0 * kStep);
+        const double after = force(bent + kStep) - force(bent);
+        EXPECT_LT(std::abs(after - before), 0.0006 * force(bent))
+          << tip.index() << " " << bent << " " << thickness;
+      }
+    }
+  }
+}
+
 } // namespace
 } // namespace palp
