@@ -24,9 +24,10 @@ using Layer = ToolSolid::Layer;
 class Sums
 {
 public:
-  Sums(const ToolSolid& solid) noexcept
+  Sums(const ToolSolid& solid, bool closed) noexcept
     : solid_(&solid)
     , beyond_(solid.beyond())
+    , closed_(closed)
   {
   }
 
@@ -44,7 +45,7 @@ public:
     const double nearest = kInscribed * (middle.head<2>().norm() - extent);
     if (high > beyond_.low && nearest <= beyond_.radius)
     {
-      addBeyond(corners, normal, isBorder);
+      addBeyond(corners, normal);
     }
     for (const Layer& layer : solid_->layers())
     {
@@ -61,7 +62,20 @@ public:
         continue;
       }
       addPiece(layer, piece, normal, isLowest);
-      addBorders(layer, piece, isBorder);
+      for (std::size_t k = 0; k < piece.size(); ++k)
+      {
+        const std::int8_t bound = piece.bound(k);
+        if (bound < codeOf(Bound::Bottom) && isBorder[at(bound)])
+        {
+          const Eigen::Vector3d& from = piece[k];
+          const Eigen::Vector3d& to = piece[piece.after(k)];
+          sum_.area -= acrossBorder(layer, layer.volume, from, to);
+          if (solid_->isFlat())
+          {
+            sum_.liftArea -= acrossBorder(layer, layer.lift, from, to);
+          }
+        }
+      }
     }
   }
 
@@ -120,38 +134,22 @@ private:
       normal.dot(piece[0] - layer.pole * Eigen::Vector3d::UnitZ());
   }
 
-  void addBorders(
-    const Layer& layer, const Piece& piece, const std::array<bool, 3>& isBorder) noexcept
-  {
-    for (std::size_t k = 0; k < piece.size(); ++k)
-    {
-      const std::int8_t bound = piece.bound(k);
-      if (bound < codeOf(Bound::Bottom) && isBorder[at(bound)])
-      {
-        const Eigen::Vector3d& from = piece[k];
-        const Eigen::Vector3d& to = piece[piece.after(k)];
-        sum_.area -= acrossBorder(layer, layer.volume, from, to);
-        if (solid_->isFlat())
-        {
-          sum_.liftArea -= acrossBorder(layer, layer.lift, from, to);
-        }
-      }
-    }
-  }
-
-  // what went into the shaft leaves the body there
-  void addBeyond(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& normal,
-    const std::array<bool, 3>& isBorder) noexcept
+  // what went into the shaft leaves the body there, as often as it comes in; a sheet has no inside
+  void addBeyond(
+    const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& normal) noexcept
   {
     Piece piece(corners);
     clipTo(beyond_, piece);
-    if (piece.size() > 2)
+    if (piece.size() < 3)
+    {
+      return;
+    }
+    sum_.isBeyond = true;
+    if (closed_)
     {
       const Integrals sums = integralsOf(beyond_, piece, normal);
       sum_.volume += through(beyond_, beyond_.volume, sums, piece, normal);
       sum_.lift += through(beyond_, beyond_.lift, sums, piece, normal);
-      addBorders(beyond_, piece, isBorder);
-      sum_.isBeyond = true;
     }
   }
 
@@ -234,6 +232,7 @@ private:
 
   const ToolSolid* solid_;
   Layer beyond_;
+  bool closed_;
   Overlap sum_;
 };
 
@@ -268,7 +267,7 @@ Overlap overlapOf(const Surface& surface, const ToolSolid& solid, const ToolFram
     const double reach = solid.outerRadiusBelow(along + size) + size;
     return (middle - along * up).squaredNorm() < reach * reach;
   };
-  Sums sums(solid);
+  Sums sums(solid, surface.closed());
   const auto add = [&](int i)
   {
     const Facet& facet = tree.facets()[at(i)];

@@ -89,6 +89,44 @@ TEST(LongShaft, PressesNoOtherPartOfTheBody)
   }
 }
 
+// sheets have no inside that would end: what faces the tool far over its apex says nothing
+TEST(LongShaft, PressesASheetBelowAnother)
+{
+  const Surface alone = test::makeSurface(test::sheet(120.0_mm, 9));
+  for (const auto& [name, tip] : kTools)
+  {
+    const double reach = 1.6 * tipHeight(tip, baseRadius(tip)) + 4.5 * baseRadius(tip);
+    for (const double above : { reach, reach + 20.0_mm, 0.2 })
+    {
+      test::Mesh mesh = test::sheet(120.0_mm, 9);
+      auto [points, triangles] = test::sheet(120.0_mm, 5);
+      const auto first = static_cast<int>(mesh.first.size());
+      for (Vector3d& point : points)
+      {
+        mesh.first.emplace_back(point.x(), point.y(), above);
+      }
+      for (const Triangle& t : triangles)
+      {
+        mesh.second.push_back({ first + t[0], first + t[2], first + t[1] }); // faces down
+      }
+      const Surface both = test::makeSurface(std::move(mesh));
+      for (const double depth : { 0.3, 0.9, 5.0 }) // of the base radius
+      {
+        const ToolPose pose{ .apex = { 1.3_mm, -2.1_mm, -depth * baseRadius(tip) },
+          .axis = -Vector3d::UnitZ(),
+          .velocity = Vector3d::Zero() };
+        const Contact found = findContact(both, tip, pose, ContactRule::Exact);
+        const Contact expected = findContact(alone, tip, pose, ContactRule::Exact);
+        EXPECT_NEAR(expected.depth, depth * baseRadius(tip), 1e-6 * depth) << name;
+        if (depth < 1.0 || above > reach + 30.0_mm)
+        {
+          EXPECT_NEAR(found.depth, expected.depth, 1e-9) << name << " " << above << " " << depth;
+        }
+      }
+    }
+  }
+}
+
 // as deep as the body is thick: the shaft counts as far as the tool is in it
 TEST(LongShaft, CountsAsFarAsTheToolIsIn)
 {
