@@ -257,7 +257,7 @@ TEST(LayerContact, HasNoCornerHoweverHollowTheSurface)
       {
         const double before = force(bent - kStep) - force(bent - 2.0 * kStep);
         const double after = force(bent + kStep) - force(bent);
-        EXPECT_LT(std::abs(after - before), 0.0006 * force(bent))
+        EXPECT_LT(std::abs(after - before), 0.0002 * force(bent))
           << tip.index() << " " << bent << " " << thickness;
       }
     }
