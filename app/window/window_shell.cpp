@@ -107,7 +107,7 @@ void Window::openRecent(const QString& file)
 
 void Window::greet()
 {
-  if (memory_.isFirstTime())
+  if (!search_ && memory_.isFirstTime()) // a search has told what to do
   {
     say(tr("Drag down on the organ to press it; H shows all keys and what the mouse does"));
   }

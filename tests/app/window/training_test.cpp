@@ -190,6 +190,13 @@ TEST_F(TrainingTest, AMarkIsTakenBackUntilItIsGraded)
   EXPECT_FALSE(window_->findChild<QAction*>("undoAction")->isEnabled());
 }
 
+TEST_F(TrainingTest, WhatToDoIsNotHiddenByTheFirstGreeting)
+{
+  start("4");
+  window_->greet();
+  EXPECT_TRUE(said().contains("mark with M")) << said().toStdString();
+}
+
 TEST_F(TrainingTest, TellsOfNoNoduleBeforeItIsGraded)
 {
   start("4");
