@@ -275,8 +275,9 @@ Reach reachOf(const Tip& tip, const ToolPose& pose, ContactRule rule) noexcept
   {
     return { pose.apex - nose * pose.axis, nose };
   }
+  constexpr double kBelowASheet = 0.06; // [m] which counts on the shaft as far as the tool is in it
   const ToolSolid solid(tip);
-  const double middle = 0.5 * solid.top();
+  const double middle = 0.5 * std::max(solid.top(), kBelowASheet);
   return { pose.apex - middle * pose.axis, std::hypot(middle, solid.outerRadius()) };
 }
 

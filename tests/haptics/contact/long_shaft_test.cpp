@@ -127,6 +127,24 @@ TEST(LongShaft, PressesASheetBelowAnother)
   }
 }
 
+// an organ is asked for its contact only where this ball meets it
+TEST(LongShaft, IsWithinItsReachFarBelowASheet)
+{
+  const Surface sheet = test::makeSurface(test::sheet(120.0_mm, 9));
+  for (const auto& [name, tip] : kTools)
+  {
+    for (double depth = 1.0_mm; depth < 55.0_mm; depth += 2.0_mm)
+    {
+      const ToolPose pose{ .apex = { 1.3_mm, -2.1_mm, -depth },
+        .axis = -Vector3d::UnitZ(),
+        .velocity = Vector3d::Zero() };
+      EXPECT_TRUE(findContact(sheet, tip, pose, ContactRule::Exact).touching()) << name << depth;
+      const Reach reach = reachOf(tip, pose, ContactRule::Exact);
+      EXPECT_LE(std::abs(reach.center.z()), reach.radius) << name << " " << depth;
+    }
+  }
+}
+
 // as deep as the body is thick: the shaft counts as far as the tool is in it
 TEST(LongShaft, CountsAsFarAsTheToolIsIn)
 {
