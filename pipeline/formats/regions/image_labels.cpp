@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/listed.h"
 #include "pipeline/formats/regions/image_grids.h"
 
 #include <Eigen/Dense>
@@ -163,8 +164,7 @@ std::string emptyInWords(const PatientImage& volume, const std::vector<Label>& l
     { return label.segment.layer == segment.layer && label.segment.value == segment.value; };
     if (!segment.isOfTable && std::ranges::none_of(labels, isIt))
     {
-      names +=
-        ++count > kMost ? "" : (names.empty() ? "" : ", ") + inQuotes(shownName(segment.name));
+      ++count > kMost ? void() : addListed(names, inQuotes(shownName(segment.name)));
     }
   }
   names += count > kMost ? " and " + std::to_string(count - kMost) + " more" : "";
