@@ -162,7 +162,7 @@ TEST_F(TwoHands, AFaultOfOneDisarmsBoth)
   const auto bothPush = [&] { return left.told > 0.05 && right.told > 0.05; };
   for (HeldArm* failing : { &left, &right })
   {
-    for (int attempt = 0; attempt < 20 && !bothPush(); ++attempt)
+    for (int attempt = 0; attempt < 60 && !bothPush(); ++attempt)
     {
       left.depth = right.depth = -1.0_mm;
       (void)becomes(

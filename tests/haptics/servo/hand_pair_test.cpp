@@ -105,7 +105,7 @@ protected:
   // a machine that does much else loses ticks, and then the force has to be asked for again
   void armUntilBothPush()
   {
-    for (int attempt = 0; attempt < 20 && !bothPush(); ++attempt)
+    for (int attempt = 0; attempt < 60 && !bothPush(); ++attempt)
     {
       arms_[0].depth = arms_[1].depth = -1.0_mm; // a force that starts in contact is felt less deep
       arm(false);

@@ -142,7 +142,7 @@ Sample waitFor(Servo& servo, Condition condition)
 void waitForForce(Servo& servo, Scene world)
 {
   const auto isActive = [](const Sample& sample) { return sample.state == DeviceState::Active; };
-  for (int attempt = 0; attempt < 20; ++attempt)
+  for (int attempt = 0; attempt < 200; ++attempt)
   {
     if (becomes(servo, isActive, 1s))
     {
