@@ -29,9 +29,12 @@ double kilograms(const std::string& text)
 {
   double grams = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), grams);
-  if (error != std::errc{} || std::string(end, text.data() + text.size()) != "g" || !(grams > 0.0))
+  constexpr double kMost = 5000.0; // on a handle [g]
+  const bool isMass = error == std::errc{} && std::string(end, text.data() + text.size()) == "g";
+  if (!isMass || !(grams > 0.0 && grams <= kMost))
   {
-    throw Error(ErrorCode::BadValue, "--added: '" + text + "' is no mass; give one as 100g");
+    throw Error(
+      ErrorCode::BadValue, "--added: '" + text + "': give the mass in grams, to 5000g, as 100g");
   }
   return 1e-3 * grams;
 }
@@ -126,7 +129,10 @@ int identifyDevice(const std::string& name, const std::string& added)
   if (mass > 0.0 && (!before || !before->agrees()))
   {
     throw Error(ErrorCode::BadValue,
-      "--added: this arm was not measured yet; identify it first without an added mass");
+      std::string("--added: ") +
+        (before ? "this arm does not follow its motors; mend `sign` in its configuration"
+                : "this arm was not measured yet") +
+        "; identify it first without an added mass");
   }
   const std::unique_ptr<Driver> driver = openDriver(name);
   if (!driver->limits().rendersForce)

@@ -17,6 +17,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -160,29 +161,72 @@ int list(std::vector<FoundDevice> all)
   return usable ? 0 : all.empty() ? kNoneThere : kNoneUsable;
 }
 
+struct Probed
+{
+  std::vector<double> times; ///< of exchanges [us]
+  int answered = 0;
+  Clock::time_point heard; ///< the last of these
+  bool isGone = false;
+  DriverSample sample;
+};
+
+// exchanges of a second
+Probed exchangesOf(Driver& driver)
+{
+  Probed probed;
+  for (const auto end = Clock::now() + 1s; Clock::now() < end && !probed.isGone;)
+  {
+    const auto begin = Clock::now();
+    const IoCode code = driver.tick(Eigen::Vector3d::Zero(), 0.001, probed.sample);
+    const auto now = Clock::now();
+    probed.times.push_back(std::chrono::duration<double, std::micro>(now - begin).count());
+    probed.answered += code == IoCode::Ok ? 1 : 0;
+    probed.heard = code == IoCode::Ok ? now : probed.heard;
+    probed.isGone = code == IoCode::Gone;
+    std::this_thread::sleep_until(begin + 1ms);
+  }
+  return probed;
+}
+
+// why a device that was probed cannot be used, and what to do; empty: it can
+std::string unusableReasonOf(const Probed& probed, const std::string& name)
+{
+  constexpr auto kSilent = 200ms;
+  if (probed.isGone)
+  {
+    return name.starts_with("haply") || name.starts_with("spacenavd")
+      ? "went away while it was probed, or told what no device is; check that its service still "
+        "runs, knows it, and tells positions in meters"
+      : "went away while it was probed; check its cable";
+  }
+  if (probed.answered == 0)
+  {
+    return "answered none of " + std::to_string(probed.times.size()) +
+      " exchanges in its own protocol; check its path, power, cable and firmware";
+  }
+  if (Clock::now() - probed.heard > kSilent)
+  {
+    return "fell silent after " + std::to_string(probed.answered) + " exchanges; check its power";
+  }
+  return name.starts_with("openigtlink") && !probed.sample.homed
+    ? "no tracker has sent a pose; start one that connects to this port and sends TRANSFORM or "
+      "POSITION"
+    : "";
+}
+
 int probe(const std::string& name)
 {
   const std::unique_ptr<Driver> driver = openDriver(name);
-  std::vector<double> times; // [us]
-  int answered = 0;
-  DriverSample sample;
-  for (const auto end = Clock::now() + 1s; Clock::now() < end;)
+  const Probed probed = exchangesOf(*driver);
+  std::cout << driver->limits().model << ": ";
+  if (const std::string reason = unusableReasonOf(probed, name); !reason.empty())
   {
-    const auto begin = Clock::now();
-    const IoCode code = driver->tick(Eigen::Vector3d::Zero(), 0.001, sample);
-    times.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
-    answered += code == IoCode::Ok ? 1 : 0;
-    if (code == IoCode::Gone)
-    {
-      const bool isServed = name.starts_with("haply");
-      std::cout << driver->limits().model << ": went away while it was probed; check "
-                << (isServed ? "that its service still runs and knows it" : "its cable") << '\n';
-      return kNoneUsable;
-    }
-    std::this_thread::sleep_until(begin + 1ms);
+    std::cout << reason << '\n';
+    return kNoneUsable;
   }
-  const Statistics statistics = statisticsOf(times);
-  std::cout << driver->limits().model << ": " << answered << " of " << times.size()
+  const Statistics statistics = statisticsOf(probed.times);
+  const DriverSample& sample = probed.sample;
+  std::cout << probed.answered << " of " << probed.times.size()
             << " exchanges answered in a second; median " << std::lround(statistics.median)
             << " us, longest " << std::lround(statistics.high) << " us"
             << (sample.homed ? "" : "; not homed yet") << (sample.stopped ? "; stopped" : "");
@@ -191,7 +235,7 @@ int probe(const std::string& name)
     std::cout << "; motors at " << sample.temperature << " deg C";
   }
   std::cout << '\n';
-  return answered > 0 ? 0 : kNoneUsable;
+  return 0;
 }
 
 // until the user ends the program
@@ -222,13 +266,33 @@ int probe(const std::string& name)
   }
 }
 
+// what is said of --device where a name is wrong is meant for the option that gave it
+template <typename Work>
+int namedBy(const std::string& option, const Work& work)
+{
+  constexpr std::string_view kMeant = "--device";
+  try
+  {
+    return work();
+  }
+  catch (const Error& error)
+  {
+    const std::string_view what = error.what();
+    if (!what.starts_with(kMeant))
+    {
+      throw;
+    }
+    throw Error(error.code(), option + std::string(what.substr(kMeant.size())));
+  }
+}
+
 } // namespace
 
 int showDevices(const DevicesOptions& options)
 {
   if (!options.identify.empty())
   {
-    return identifyDevice(options.identify, options.added);
+    return namedBy("--identify", [&] { return identifyDevice(options.identify, options.added); });
   }
   if (!options.home.empty())
   {
@@ -236,7 +300,7 @@ int showDevices(const DevicesOptions& options)
   }
   if (!options.probe.empty())
   {
-    return probe(options.probe);
+    return namedBy("--probe", [&] { return probe(options.probe); });
   }
   const int code = list(findDevices());
   if (options.watch)

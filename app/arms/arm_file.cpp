@@ -107,8 +107,15 @@ std::optional<IdentifiedArm> loadArm(const std::filesystem::path& file)
       .agreement = number(file, axis, "agreement", { -1.0, 1.0 }) };
   }
   arm.delay = number(file, json, "delay_s", { 0.0, 0.1 });
-  arm.encoderStep = number(file, json, "encoder_step_m", { 0.0, 0.01 });
+  arm.encoderStep = number(file, json, "encoder_step_m", { 1e-9, 0.01 });
   arm.scale = number(file, json, "scale", { 0.05, 20.0 });
+  for (const ArmAxis& axis : arm.axes)
+  {
+    if (arm.agrees() && axis.mass < IdentifiedArm::kLeastMass)
+    {
+      refuse(file, "mass_kg is beyond what an arm can have");
+    }
+  }
   return arm;
 }
 

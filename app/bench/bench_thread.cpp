@@ -39,6 +39,11 @@ private:
 
 void line(std::ostream& out, const char* name, const Histogram& histogram)
 {
+  if (histogram.count() == 0)
+  {
+    out << name << ": none was measured\n";
+    return;
+  }
   out << name << " [us]: p50 " << microseconds(histogram.quantile(0.5)) << ", p99 "
       << microseconds(histogram.quantile(0.99)) << ", p99.9 "
       << microseconds(histogram.quantile(0.999)) << ", max " << microseconds(histogram.longest())
@@ -47,10 +52,11 @@ void line(std::ostream& out, const char* name, const Histogram& histogram)
 
 nlohmann::ordered_json row(const char* work, const Histogram& histogram)
 {
+  const auto told = [&](auto time) // null: of nothing
+  { return histogram.count() > 0 ? nlohmann::ordered_json(microseconds(time)) : nullptr; };
   return { { "work", work }, { "count", histogram.count() },
-    { "p50_us", microseconds(histogram.quantile(0.5)) },
-    { "p99_us", microseconds(histogram.quantile(0.99)) },
-    { "max_us", microseconds(histogram.longest()) } };
+    { "p50_us", told(histogram.quantile(0.5)) }, { "p99_us", told(histogram.quantile(0.99)) },
+    { "max_us", told(histogram.longest()) } };
 }
 
 void print(std::ostream& out, const ServoFigures& figures)

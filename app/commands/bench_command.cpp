@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -232,11 +233,11 @@ void addBenchCommand(CLI::App& app, const Renderer* pictures)
     ->check(CLI::Range(0, 10'000'000))
     ->capture_default_str();
   command->add_flag("--quick", options->quick, "A tenth of the repetitions");
-  command->add_flag("--baselines", options->baselines,
+  CLI::Option* baselines = command->add_flag("--baselines", options->baselines,
     "Instead: one step of springs and of finite elements beside ours, as Fig. 12");
-  command->add_flag("--frames", options->frames,
+  CLI::Option* frames = command->add_flag("--frames", options->frames,
     "Instead: what a moved dent costs a picture beyond drawing the same scene again");
-  command->add_flag("--accuracy", options->accuracy,
+  CLI::Option* accuracy = command->add_flag("--accuracy", options->accuracy,
     "Instead: force error from the mesh, and smoothness, for each rule of contact");
   CLI::Option* servo = command->add_option("--servo", options->servo,
     "Instead: how well a servo thread keeps its rate for so long, like 60s");
@@ -251,11 +252,17 @@ void addBenchCommand(CLI::App& app, const Renderer* pictures)
   command->add_option("--processor", options->processor, "Of --servo: to stay on, from 0")
     ->check(CLI::Range(0, 1023))
     ->needs(servo);
-  command->add_option("--sweep", options->sweep,
+  CLI::Option* sweep = command->add_option("--sweep", options->sweep,
     "Instead: what a sweep costs on the disk of this folder, which is made and removed");
   command->add_option("--cases", options->cases, "Of that sweep; 16 kB of disk each")
     ->check(CLI::Range(1, 10'000'000))
     ->capture_default_str();
+  const std::array instead{ baselines, frames, accuracy, servo, sweep };
+  for (CLI::Option* one : instead)
+  {
+    std::ranges::for_each(
+      instead, [one](CLI::Option* other) { other != one ? void(one->excludes(other)) : void(); });
+  }
   command->footer("S is a scalar sweep over 10,000 points in the same run, by which machines "
                   "compare; x S is the median as a multiple of it.\n"
                   "Examples:\n"

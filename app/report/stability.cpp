@@ -66,9 +66,10 @@ Section stability(const Effort& effort)
   section.text = { inOneParagraph(stabilitySummary(cases)) };
   section.text.emplace_back(
     "Hand, device, coupling and tissue are simulated in closed loop (palp stability). Unstable: "
-    "the loop gave energy to the hand, or the hand did not come to rest, or it went on in a limit "
-    "cycle at an "
-    "encoder of 48 \u00b5m. The chain bounds stiffness and force, so that what is stiffer than a "
+    "the loop gave energy to the hand (an arm: more than 5 mJ, or 50 mJ where less delay is told "
+    "than it has), or the hand did not come to rest, or it went on in a limit cycle at an encoder "
+    "of "
+    "48 \u00b5m. The chain bounds stiffness and force, so that what is stiffer than a "
     "device can render is felt softer, not as shaking.");
   section.pictures = { { "stability.svg",
     "Worst outcome of each cell, the law alone on the left and through the safety chain on the "

@@ -1,6 +1,7 @@
 #include "calibration/study/study_files.h"
 
 #include "haptics/error.h"
+#include "haptics/files/checksum.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/replace_file.h"
 #include "haptics/units.h"
@@ -61,17 +62,6 @@ std::string rowsTo(const std::filesystem::path& folder, double depth)
     }
   }
   return rows;
-}
-
-// FNV-1a; against a slip of the hand or the disk, not against intent
-std::uint64_t checksumOf(std::string_view bytes)
-{
-  std::uint64_t sum = 14695981039346656037U;
-  for (const char byte : bytes)
-  {
-    sum = (sum ^ static_cast<unsigned char>(byte)) * 1099511628211U;
-  }
-  return sum;
 }
 
 // the numbers of a checkpoint, one after another

@@ -24,6 +24,8 @@ struct IdentifiedArm
 
   /// Below it a motion does not follow its push: the sign or the place of a motor is wrong.
   static constexpr double kAgrees = 0.7;
+  /// Of any arm [kg]: less was not measured.
+  static constexpr double kLeastMass = 1e-3;
 
   [[nodiscard]] bool agrees() const noexcept
   {

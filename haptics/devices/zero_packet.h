@@ -11,7 +11,7 @@ namespace palp
 /// A command of a device's protocol that ends all force, as it stands on the wire.
 struct ZeroPacket
 {
-  static constexpr std::size_t kLargest = 80;
+  static constexpr std::size_t kLargest = 512;
 
   std::array<std::byte, kLargest> bytes{};
   std::size_t size = 0;

@@ -179,10 +179,18 @@ Guard::~Guard()
 
 void Guard::end() noexcept
 {
+  constexpr auto kPatience = std::chrono::milliseconds(500);
   block_->closed = 1;
   close(link_);
-  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR)
+  const auto last = std::chrono::steady_clock::now() + kPatience;
+  for (pid_t ended = 0; ended == 0 || (ended < 0 && errno == EINTR);)
   {
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    if (std::chrono::steady_clock::now() > last)
+    {
+      kill(process_, SIGKILL); // it is stopped
+    }
+    ended = waitpid(process_, nullptr, WNOHANG);
   }
   munmap(block_, sizeof(GuardBlock));
 }

@@ -1,11 +1,16 @@
 #include "haptics/devices/haply/haply_driver.h"
 
+#include "haptics/devices/guard/guarded_driver.h"
 #include "haptics/devices/haply/haply_link.h"
 #include "haptics/error.h"
+#include "haptics/files/descriptor.h"
 #include "haptics/units.h"
 
 #include <charconv>
+#include <cstddef>
 #include <optional>
+#include <sys/socket.h>
+#include <sys/un.h>
 
 namespace palp
 {
@@ -17,11 +22,27 @@ using namespace std::chrono_literals;
 
 constexpr std::uint16_t kUsualPort = 10'001;
 
+// one palp drives an arm at a time; the system frees the name with the program
+Descriptor claimArm(std::uint16_t port)
+{
+  Descriptor name(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  sockaddr_un where{ .sun_family = AF_UNIX, .sun_path = {} };
+  const std::string text = "palp haply " + std::to_string(port);
+  text.copy(&where.sun_path[1], sizeof(where.sun_path) - 1); // begins with 0: not in a folder
+  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + text.size());
+  if (bind(name.get(), reinterpret_cast<const sockaddr*>(&where), size) != 0)
+  {
+    throw Error(ErrorCode::NoDevice, "Haply Inverse3: is driven by another palp; close it");
+  }
+  return name;
+}
+
 class HaplyDriver final : public Driver
 {
 public:
   explicit HaplyDriver(std::uint16_t port)
-    : link_(port)
+    : taken_(claimArm(port))
+    , link_(port)
   {
     constexpr double kTurned = 50.0_mm; // that no hand goes meanwhile
     const Eigen::Vector3d before = link_.state().position;
@@ -33,6 +54,12 @@ public:
       start_ = Eigen::Vector3d::Zero();
       reach_ = now.reach;
     }
+    guard_ = std::make_shared<Guard>(link_.descriptor(), GuardWire::File, haplyZero(now));
+  }
+
+  [[nodiscard]] std::shared_ptr<Guard> guard() const
+  {
+    return guard_;
   }
 
   // force and step of Haply's data sheet: 4 N in 80 % of the workspace, 10 N at its peak, 0.01 mm;
@@ -57,7 +84,14 @@ public:
     const bool pushes = homed_ && wrench.force.allFinite();
     const Eigen::Vector3d sent = pushes ? wrench.force : Eigen::Vector3d(Eigen::Vector3d::Zero());
     sample.sent = sent;
+    guard_->beat();
+    if (!sent.isZero(0.0))
+    {
+      guard_->setForced(true);
+    }
     const bool replied = link_.exchange(sent, 2ms);
+    guard_->beat();
+    guard_->setForced(link_.pushes());
     if (link_.gone())
     {
       return IoCode::Gone;
@@ -79,6 +113,8 @@ public:
   }
 
 private:
+  Descriptor taken_;
+  std::shared_ptr<Guard> guard_; // ends after the link, which ends with zero force
   HaplyLink link_;
   bool homed_ = false;
   std::optional<Eigen::Vector3d> start_; // zero of its poses: the middle, where it is known [m]
@@ -98,7 +134,9 @@ std::unique_ptr<Driver> openHaply(const std::string& port)
     throw Error(ErrorCode::BadValue,
       "--device: haply:" + port + ": not a port; write as in haply or haply:10001");
   }
-  return std::make_unique<HaplyDriver>(number);
+  auto driver = std::make_unique<HaplyDriver>(number);
+  auto guard = driver->guard();
+  return std::make_unique<GuardedDriver>(std::move(driver), std::move(guard));
 }
 
 void findHaply()

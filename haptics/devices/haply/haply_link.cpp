@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <libwebsockets.h>
 #include <poll.h>
 #include <sys/eventfd.h>
@@ -18,7 +19,6 @@ using namespace std::chrono_literals;
 // what runs in the thread of the link
 struct HaplyLink::Service
 {
-  static constexpr int kHangUp = -1;
   static constexpr std::size_t kLargest = 65'536; // of a message: all devices of a desk are a tenth
 
   explicit Service(HaplyLink& link, std::uint16_t port);
@@ -32,7 +32,9 @@ struct HaplyLink::Service
   static int callback(
     lws* socket, lws_callback_reasons reason, void* unused, void* data, std::size_t size);
   bool receive(lws* socket, std::string_view part);
-  bool send(lws* socket);
+  void send(lws* socket);
+  bool write(lws* socket, const Eigen::Vector3d& force, bool first);
+  void run(const std::stop_token& stop);
   void end() noexcept
   {
     link.gone_ = true;
@@ -86,6 +88,7 @@ int HaplyLink::Service::callback(
   {
     case LWS_CALLBACK_CLIENT_ESTABLISHED:
       self()->connection = socket;
+      self()->link.socket_ = Descriptor(fcntl(lws_get_socket_fd(socket), F_DUPFD_CLOEXEC, 0));
       return 0;
     case LWS_CALLBACK_EVENT_WAIT_CANCELLED: // a force waits
       if (self()->connection != nullptr)
@@ -94,9 +97,14 @@ int HaplyLink::Service::callback(
       }
       return 0;
     case LWS_CALLBACK_CLIENT_RECEIVE:
-      return self()->receive(socket, { static_cast<const char*>(data), size }) ? 0 : kHangUp;
+      if (!self()->receive(socket, { static_cast<const char*>(data), size }))
+      {
+        self()->end(); // a socket that is hung up here could not be sent zero any more
+      }
+      return 0;
     case LWS_CALLBACK_CLIENT_WRITEABLE:
-      return self()->send(socket) ? 0 : kHangUp;
+      self()->send(socket);
+      return 0;
     case LWS_CALLBACK_CLIENT_CONNECTION_ERROR:
     case LWS_CALLBACK_CLIENT_CLOSED:
       self()->connection = nullptr;
@@ -109,7 +117,7 @@ int HaplyLink::Service::callback(
 
 bool HaplyLink::Service::receive(lws* socket, std::string_view part)
 {
-  if (message.size() + part.size() > kLargest)
+  if (link.gone_ || message.size() + part.size() > kLargest)
   {
     return false;
   }
@@ -128,31 +136,50 @@ bool HaplyLink::Service::receive(lws* socket, std::string_view part)
   return understood;
 }
 
-bool HaplyLink::Service::send(lws* socket)
+bool HaplyLink::Service::write(lws* socket, const Eigen::Vector3d& force, bool first)
 {
-  const int asked = link.asked_;
-  if (asked == answered || state.id.front() == 0)
-  {
-    return true;
-  }
-  const std::string text = haplyCommand(state, link.forces_.read(), answered == 0);
-  answered = asked;
+  const std::string text = haplyCommand(state, force, first);
   std::vector<unsigned char> buffer(LWS_PRE + text.size());
   std::memcpy(buffer.data() + LWS_PRE, text.data(), text.size());
   return lws_write(socket, buffer.data() + LWS_PRE, text.size(), LWS_WRITE_TEXT) >= 0;
 }
 
+void HaplyLink::Service::send(lws* socket)
+{
+  const int asked = link.asked_;
+  if (asked == answered || state.id.front() == 0)
+  {
+    return;
+  }
+  const Eigen::Vector3d& force = link.forces_.read();
+  const bool pushes = !force.isZero(0.0);
+  link.pushes_ = link.pushes_ || pushes;
+  if (!write(socket, force, answered == 0))
+  {
+    end();
+    return;
+  }
+  link.pushes_ = pushes;
+  answered = asked;
+}
+
+// however it ends, the last command is one of no force
+void HaplyLink::Service::run(const std::stop_token& stop)
+{
+  while (!stop.stop_requested() && !link.gone_ && lws_service(context, 0) >= 0)
+  {
+  }
+  if (connection != nullptr && link.pushes_)
+  {
+    (void)write(connection, Eigen::Vector3d::Zero(), false);
+  }
+  end();
+}
+
 HaplyLink::HaplyLink(std::uint16_t port)
   : replies_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC))
   , service_(std::make_unique<Service>(*this, port))
-  , thread_(
-      [this](const std::stop_token& stop)
-      {
-        while (!stop.stop_requested() && !gone_ && lws_service(service_->context, 0) >= 0)
-        {
-        }
-        service_->end();
-      })
+  , thread_([this](const std::stop_token& stop) { service_->run(stop); })
 {
   constexpr auto kPatience = 1s;
   (void)waitForReply(kPatience);

@@ -37,10 +37,22 @@ public:
     return states_.read();
   }
 
-  /// The service has ended, or said what is none of its messages.
+  /// The service has ended, or said what is none of its messages; then it was sent zero force.
   [[nodiscard]] bool gone() const noexcept
   {
     return gone_;
+  }
+
+  /// Whether the last command that went out asked for force.
+  [[nodiscard]] bool pushes() const noexcept
+  {
+    return pushes_;
+  }
+
+  /// Its socket, as long as this lives.
+  [[nodiscard]] int descriptor() const noexcept
+  {
+    return socket_.get();
   }
 
 private:
@@ -53,8 +65,10 @@ private:
   Latest<Eigen::Vector3d> forces_{ Eigen::Vector3d::Zero() }; // to its thread
   Latest<HaplyState> states_;                                 // from it
   std::atomic<bool> gone_ = false;
+  std::atomic<bool> pushes_ = false;
   std::atomic<int> asked_ = 0; // commands
   Descriptor replies_;         // rung by it
+  Descriptor socket_;          // a copy of its own, before the first message
   std::unique_ptr<Service> service_;
   std::jthread thread_; // last: it uses all the others
 };

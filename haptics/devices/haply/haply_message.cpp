@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
+#include <vector>
 
 namespace palp
 {
@@ -131,6 +133,26 @@ std::string haplyCommand(const HaplyState& arm, const Eigen::Vector3d& force, bo
     message["inverse3"][0]["configure"] = { { "preset", kCentered } };
   }
   return message.dump();
+}
+
+ZeroPacket haplyZero(const HaplyState& arm)
+{
+  constexpr std::size_t kShort = 125; // of a length in one byte
+  constexpr std::uint8_t kMasked = 0x80;
+  const std::string text = haplyCommand(arm, Eigen::Vector3d::Zero(), false);
+  const bool isShort = text.size() <= kShort;
+  std::vector<std::uint8_t> frame{ kMasked | 1U, kMasked };
+  frame[1] |= static_cast<std::uint8_t>(isShort ? text.size() : kShort + 1);
+  if (!isShort)
+  {
+    frame.insert(frame.end(),
+      { static_cast<std::uint8_t>(text.size() >> 8U), static_cast<std::uint8_t>(text.size()) });
+  }
+  frame.insert(frame.end(), 4, 0);
+  frame.insert(frame.end(), text.begin(), text.end());
+  ZeroPacket zero{ .size = frame.size() };
+  std::memcpy(zero.bytes.data(), frame.data(), std::min(frame.size(), ZeroPacket::kLargest));
+  return zero;
 }
 
 } // namespace palp

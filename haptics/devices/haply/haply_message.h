@@ -1,5 +1,7 @@
 #pragma once
 
+#include "haptics/devices/zero_packet.h"
+
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
@@ -36,5 +38,9 @@ struct HaplyState
 ///               from the middle of the workspace
 [[nodiscard]] std::string haplyCommand(
   const HaplyState& arm, const Eigen::Vector3d& force, bool first);
+
+/// The command of no force as the text frame of a WebSocket's client, for a guardian.
+/// @source  RFC 6455, 5.2; the key of its mask is 0, so that the text stands as it is
+[[nodiscard]] ZeroPacket haplyZero(const HaplyState& arm);
 
 } // namespace palp

@@ -72,8 +72,10 @@ void readKeys(std::string_view text, std::span<Key> keys, const std::string& nam
     std::string_view row = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(text.size(), row.size() + 1));
     row = row.substr(0, row.find('#'));
-    const std::string_view word = nextWord(row);
-    if (word.empty())
+    const std::size_t equals = std::min(row.find('='), row.size());
+    std::string_view front = row.substr(0, equals);
+    const std::string_view word = nextWord(front);
+    if (word.empty() && equals == row.size())
     {
       continue;
     }
@@ -83,10 +85,11 @@ void readKeys(std::string_view text, std::span<Key> keys, const std::string& nam
       refuse(line,
         "unknown key '" + std::string(word) + "'; expected one of " + listed(keys, &Key::name));
     }
-    if (nextWord(row) != "=")
+    if (equals == row.size() || !nextWord(front).empty())
     {
       refuse(line, "no = after " + std::string(word) + "; write as in: length = 0.080 0.205 0.245");
     }
+    row.remove_prefix(equals + 1);
     if (std::exchange(key->given, true))
     {
       refuse(line, std::string(word) + " is given twice; keep one of them");
@@ -144,10 +147,10 @@ WoodenArm parseWoodenArm(std::string_view text, const std::string& name)
     Key{ "length", arm.length, 0.01, 2.0, "m" }, Key{ "body", arm.body, 0.01, 1.0, "m" },
     Key{ "origin", arm.origin, -2.0, 2.0, "m" }, Key{ "torque", arm.torque, 0.001, 5.0, "N m/A" },
     Key{ "counts", arm.counts, 10.0, 1e6, "counts in a turn" },
-    Key{ "sign", arm.sign, -1.0, 1.0, "1 or -1" },
+    Key{ "sign", arm.sign, -100.0, 100.0, "1 or -1" },
     Key{ "rest", arm.rest, -32'768.0, 32'767.0, "counts" },
     Key{ "wrist", arm.wrist, 0.0, 1e6, "counts in a turn" },
-    Key{ "wrist_sign", arm.wristSign, -1.0, 1.0, "1 or -1" },
+    Key{ "wrist_sign", arm.wristSign, -100.0, 100.0, "1 or -1" },
     Key{ "radius", { &arm.radius, 1 }, 0.005, 1.0, "m" },
     Key{ "max_force", { &arm.maxForce, 1 }, 0.1, 50.0, "N" },
     Key{ "max_current", { &arm.maxCurrent, 1 }, 0.01, 20.0, "A" },

@@ -38,20 +38,21 @@ public:
     center_ = begin_.position;
   }
 
-  [[nodiscard]] ArmPosition send(const Vector3d& force) const
+  [[nodiscard]] ArmPosition send(const Vector3d& force)
   {
     const double size = force.norm();
     const auto answer =
       exchange_(size > kMostForce ? Vector3d(force * (kMostForce / size)) : force);
-    if (!answer || !answer->position.allFinite())
+    if (const std::string fault = faultOf(answer); !fault.empty())
     {
       (void)exchange_(Vector3d::Zero());
-      refuse("the arm went away, was stopped or is not homed; see palp devices and try again");
+      refuse(fault);
     }
+    heard_ = answer;
     return *answer;
   }
 
-  void checkThatItRests() const
+  void checkThatItRests()
   {
     constexpr double kQuiet = 0.5; // [s]
     ArmPosition now = begin_;
@@ -69,18 +70,21 @@ public:
   // it
   [[nodiscard]] double agreement(int axis, double& breakaway)
   {
+    constexpr double kLongest = 0.7; // [s], of which 0.2 with the largest force
     const double enough = std::max(0.001, 8.0 * step_);
     const ArmPosition from = send(Vector3d::Zero());
+    double passed = 0.0;
     std::vector<double> pushes;
     Vector3d moved = Vector3d::Zero();
     double start = 0.0;
-    for (double force = 0.0; moved.norm() < enough && pushes.size() < 2000;)
+    for (double force = 0.0; moved.norm() < enough && passed < kLongest;)
     {
       pushes.push_back(force);
       const ArmPosition now = send(force * Vector3d::Unit(axis));
       moved = now.position - from.position;
       start = moved.norm() < std::max(2.5 * step_, 0.1e-3) ? force : start;
-      force = std::min(kMostForce, kRamp * (now.time - from.time));
+      passed = now.time - from.time;
+      force = std::min(kMostForce, kRamp * passed);
     }
     const bool follows = moved.norm() >= enough;
     const double agreed = moved[axis] / std::max(moved.norm(), 1e-12);
@@ -107,7 +111,7 @@ public:
   }
 
   // without force, until it does or a second has passed
-  void letRest() const
+  void letRest()
   {
     constexpr double kStill = 0.06; // [s]
     ArmPosition last = send(Vector3d::Zero());
@@ -145,12 +149,41 @@ public:
   }
 
 private:
+  // why an answer is that of no arm that 0.3 N push; empty: nothing is wrong
+  [[nodiscard]] std::string faultOf(const std::optional<ArmPosition>& answer) const
+  {
+    constexpr double kFastest = 2.0; // [m/s]
+    constexpr double kNoise = 0.002; // [m]
+    constexpr double kAway = 0.1;    // [m]
+    if (!answer)
+    {
+      return "the arm went away, was stopped or is not homed, or this computer was late by 50 ms; "
+             "see palp devices, end what else runs, and try again";
+    }
+    if (!answer->position.allFinite())
+    {
+      return "the arm tells a position that is no number; check its encoders and their cables";
+    }
+    const ArmPosition& before = heard_.value_or(*answer);
+    const double jump = (answer->position - before.position).norm();
+    if (jump > kNoise + kFastest * (answer->time - before.time))
+    {
+      return "the position leaps by " + std::to_string(std::lround(1e3 * jump)) +
+        " mm; check the encoders, their cables and the configuration";
+    }
+    return heard_ && (answer->position - center_).norm() > kAway
+      ? "the arm moves by itself, 100 mm from where it began; balance it, let go of it, and try "
+        "again"
+      : "";
+  }
+
   // between two forces: each change comes where the last swing was so long ago that this one will
   // be as wide as asked
   [[nodiscard]] Swing swing(int axis, double force, double width)
   {
     constexpr int kSwings = 14;
     constexpr double kLongest = 4.0; // [s]
+    constexpr double kStands = 0.2;  // [s]
     Swing record;
     double way = 1.0;
     double shift = 0.5 * width; // of the change behind the center
@@ -159,6 +192,7 @@ private:
     last_ = send(hold());
     const double begin = last_.time;
     const double noise = std::max(3.0 * step_, 0.1e-3);
+    ArmPosition moved = last_;
     while (turns < kSwings && last_.time - begin < kLongest)
     {
       const double x = last_.position[axis] - center_[axis];
@@ -166,6 +200,18 @@ private:
       {
         way = -way;
         furthest = x;
+        moved = last_;
+      }
+      if (std::abs(last_.position[axis] - moved.position[axis]) > std::max(step_, 10e-6))
+      {
+        moved = last_;
+      }
+      if (last_.time - moved.time > kStands)
+      {
+        (void)exchange_(Vector3d::Zero());
+        refuse(std::string("the arm stands still along ") + kNames[static_cast<std::size_t>(axis)] +
+          " though it is pushed by more than moved it before; an encoder hangs, or a hand holds "
+          "it");
       }
       furthest = way < 0.0 ? std::max(furthest, x) : std::min(furthest, x);
       if (furthest != 0.0 && -way * (furthest - x) > noise && !turned_)
@@ -209,6 +255,7 @@ private:
 
   const ArmExchange& exchange_;
   double step_;
+  std::optional<ArmPosition> heard_; // the last that was taken
   ArmPosition begin_;
   Vector3d center_ = Vector3d::Zero();
   ArmPosition last_;
@@ -256,6 +303,12 @@ IdentifiedArm identifyArm(const ArmExchange& exchange, double step)
   for (std::size_t i = 0; i < 3; ++i)
   {
     const SwingModel model = fitSwings(swings[i], step, arm.delay);
+    if (!(model.mass >= IdentifiedArm::kLeastMass))
+    {
+      refuse(std::string("the arm does not swing along ") + kNames[i] +
+        " as a mass with friction does, and nothing is kept; balance it, let go of it, and try "
+        "again");
+    }
     arm.axes[i].mass = model.mass;
     arm.axes[i].damping = model.damping;
     arm.axes[i].friction = model.friction;

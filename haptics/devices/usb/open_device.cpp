@@ -15,12 +15,14 @@
 #include "haptics/devices/usb/hid_transport.h"
 #include "haptics/devices/usb/usb_transport.h"
 #include "haptics/error.h"
+#include "haptics/files/checksum.h"
 #include "haptics/files/input_text.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iterator>
+#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -29,6 +31,8 @@ namespace palp
 {
 namespace
 {
+
+constexpr const char* kUsualArm = "v2015";
 
 // kind and what stands behind its colon
 std::pair<std::string, std::string> parts(const std::string& name)
@@ -74,6 +78,20 @@ std::string boardAt(const std::string& path)
   return board == all.end() ? "" : board->ids + " " + board->name;
 }
 
+// of a board's arm: its published name, or its file with what stands in it
+std::string configurationOf(const std::string& rest)
+{
+  const std::string named = boardParts(rest).second;
+  if (named.empty() || !std::filesystem::is_regular_file(named))
+  {
+    return named.empty() ? kUsualArm : named;
+  }
+  std::ostringstream text;
+  text << std::filesystem::path(named).stem().string() << ' ' << std::hex
+       << checksumOf(readText(named, "the configuration"));
+  return text.str();
+}
+
 using Opener = std::unique_ptr<Driver> (*)(const std::string& rest);
 
 std::unique_ptr<Driver> openSpaceMouse(const std::string& rest)
@@ -116,7 +134,7 @@ std::unique_ptr<Driver> openWooden(const std::string& rest)
 {
   requirePath("wooden", rest);
   const auto [path, configuration] = boardParts(rest);
-  const auto published = publishedArm(configuration.empty() ? "v2015" : configuration);
+  const auto published = publishedArm(configuration.empty() ? kUsualArm : configuration);
   if (!published && !std::filesystem::exists(configuration))
   {
     throw Error(ErrorCode::BadValue,
@@ -225,7 +243,8 @@ std::unique_ptr<Driver> openHoming(const std::string& name)
   const auto [kind, rest] = parts(name);
   if (kind != "phd1" || rest.empty())
   {
-    throw Error(ErrorCode::BadValue, "--home: '" + name + "' homes by hand; give phd1:PATH");
+    throw Error(ErrorCode::BadValue,
+      "--home: '" + name + "' is no device that homes by itself; give phd1:PATH");
   }
   return guarded(openHid(rest), phd1Zero(),
     [](std::unique_ptr<Transport> wire)
@@ -240,7 +259,8 @@ std::string identityOf(const std::string& name)
 {
   const auto [kind, rest] = parts(name);
   const std::string board = rest.empty() ? "" : boardAt(boardParts(rest).first);
-  return board.empty() ? kind : kind + " " + board;
+  return kind + (board.empty() ? "" : " " + board) +
+    (kind == "wooden" ? " " + configurationOf(rest) : "");
 }
 
 std::unique_ptr<Device> openDevice(const std::string& name, const DevicePlacement& placement,

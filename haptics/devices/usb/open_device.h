@@ -38,7 +38,9 @@ inline constexpr const char* kHardwareNames =
   const DevicePlacement& placement, const std::optional<IdentifiedArm>& arm = std::nullopt);
 
 /// What tells a device from those of other kinds, wherever it is plugged in: its kind and, of a
-/// board, its ids and name. Two boards alike are one.
+/// board, its ids, its name and its configuration, whose signs a measurement vouches for. Two
+/// boards alike are one.
+/// @throws Error  BadFile: the file of its configuration cannot be read
 [[nodiscard]] std::string identityOf(const std::string& name);
 
 /// True when openDriver knows a name of this kind.

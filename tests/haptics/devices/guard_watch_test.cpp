@@ -10,8 +10,10 @@
 
 #include <array>
 #include <atomic>
+#include <csignal>
 #include <cstdarg>
 #include <fcntl.h>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <linux/usbdevice_fs.h>
 #include <memory>
@@ -185,6 +187,18 @@ TEST(GuardedDriver, TellsAStopAfterASuspendAndSendsZero)
   gSuspended = 60'000'000'000;
   EXPECT_TRUE(arm.tick().stopped);
   EXPECT_EQ(arm.force, 0.0);
+}
+
+TEST(GuardedDriver, WaitsForNoGuardianThatIsStopped)
+{
+  pid_t guardian = 0;
+  {
+    const test::GuardedPhd1 arm;
+    std::ifstream("/proc/self/task/" + std::to_string(gettid()) + "/children") >> guardian;
+    ASSERT_GT(guardian, 0);
+    kill(guardian, SIGSTOP);
+  }
+  EXPECT_NE(kill(guardian, 0), 0) << "it is still there";
 }
 
 TEST(TwoPrograms, NeverDriveOneArm)

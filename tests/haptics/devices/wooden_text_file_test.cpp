@@ -14,7 +14,7 @@ namespace
 TEST(WoodenHaptics, ConfigurationIsReadAndCheckedByLine)
 {
   const WoodenArm arm = parseWoodenArm("# AluHaptics\nlength = 0.111 0.140 0.111\r\n"
-                                       "origin = 0.140 0 0\nmax_force = 3 # N\n",
+                                       "origin =0.140 0 0\nmax_force=3 # N\n",
     "arm.conf");
   EXPECT_EQ(arm.length[1], 0.140);
   EXPECT_EQ(arm.origin[2], 0.0);
@@ -48,7 +48,9 @@ TEST(WoodenHaptics, ConfigurationThatIsWrongIsToldByKeyValueAndRange)
          Bad{ "damping = 0.5 N*s/m", "damping has more values than it takes" },
          Bad{ "radius = 0.1\nradius = 0.2", "arm.conf:2: radius is given twice" },
          Bad{ "lenght = 1 2 3", "unknown key 'lenght'; expected one of capstan, length" },
-         Bad{ "length 1 2 3", "no = after length" }, Bad{ "", "tells nothing of an arm" } })
+         Bad{ "length 1 2 3", "no = after length" }, Bad{ "length body = 1", "no = after length" },
+         Bad{ "sign = 1 1 2", "arm.conf: a sign is neither 1 nor -1" },
+         Bad{ "", "tells nothing of an arm" } })
   {
     try
     {

@@ -246,5 +246,39 @@ TEST(Identify, RefusesInOneSentenceWhatCannotBeMeasured)
   EXPECT_LE(exchanges, 2);
 }
 
+// encoders that hang or leap, from any moment on: the arm that is pushed meanwhile gets no force
+// soon
+TEST(Identify, AnEncoderThatHangsOrLeapsEndsThePush)
+{
+  for (const bool hangs : { true, false })
+  {
+    for (const double from : { 0.2, 0.55, 0.8, 1.6, 3.0, 5.0, 9.0, 14.0, 25.0, 33.0 })
+    {
+      MadeUpArm arm;
+      arm.damping.setConstant(0.1);
+      std::optional<Vector3d> held;
+      Vector3d last = Vector3d::Zero();
+      int leaps = 0;
+      const auto exchange = [&](const Vector3d& force) -> std::optional<ArmPosition>
+      {
+        ArmPosition now = arm.exchange(force);
+        last = force;
+        if (arm.time > from)
+        {
+          held = held.value_or(now.position);
+          const Vector3d leapt =
+            now.position + (++leaps % 3 == 0 ? 1.0 : 0.0) * Vector3d(0.02, 0, 0);
+          now.position = hangs ? *held : leapt;
+        }
+        return now;
+      };
+      EXPECT_THROW((void)identifyArm(exchange, arm.step), Error) << from;
+      EXPECT_LE(arm.time, from + 6.0);
+      EXPECT_LE(arm.furthest, 0.3);
+      EXPECT_EQ(last, Vector3d::Zero());
+    }
+  }
+}
+
 } // namespace
 } // namespace palp
