@@ -21,7 +21,7 @@ struct SafetySettings
   double period = 0.001;          ///< T of the loop [s]
   double stiffnessFraction = 0.7; ///< of the stable stiffness that is used [-]
   double passivityDamping = 2.0;  ///< alpha_max [N s/m]
-  double slewRate = 500.0;        ///< [N/s]
+  double slewRate = 500.0;        ///< [N/s]; what a fault ends falls with its decay besides
   double softSlewRate = 50.0;     ///< while a force starts [N/s]
   double softStart = 0.5;         ///< from zero to full force [s]
   double decay = 0.1;             ///< from full force to zero [s]

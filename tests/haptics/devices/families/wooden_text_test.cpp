@@ -233,5 +233,23 @@ TEST(WoodenText, ItsPortsAreFoundWithoutOpeningOne)
   EXPECT_TRUE(serialPorts(folder).empty());
 }
 
+// what vouches for the signs of one configuration does not for those of another
+TEST(WoodenText, AMeasurementIsOfABoardAndItsConfiguration)
+{
+  const std::string file = testing::TempDir() + "palp_arm_" + std::to_string(getpid()) + ".conf";
+  const auto with = [&](const char* text)
+  {
+    std::ofstream(file) << text;
+    return identityOf("wooden:/dev/ttyACM9," + file);
+  };
+  const std::string mine = with("sign = 1 1 1\n");
+  EXPECT_EQ(mine, with("sign = 1 1 1\n"));
+  EXPECT_NE(mine, with("sign = 1 -1 1\n"));
+  EXPECT_EQ(identityOf("wooden:/dev/ttyACM9"), identityOf("wooden:/dev/ttyACM9,v2015"));
+  EXPECT_NE(identityOf("wooden:/dev/ttyACM9"), identityOf("wooden:/dev/ttyACM9,aluhaptics"));
+  EXPECT_NE(identityOf("wooden:/dev/ttyACM9"), mine);
+  std::filesystem::remove(file);
+}
+
 } // namespace
 } // namespace palp
