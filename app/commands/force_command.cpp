@@ -1,4 +1,5 @@
 #include "app/commands/commands.h"
+#include "app/commands/pressed_place.h"
 #include "app/input/law_options.h"
 #include "app/input/nodule_options.h"
 #include "app/input/option_values.h"
@@ -17,6 +18,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -82,56 +84,9 @@ bool isPaper(const ForceLaw& law)
   return law.settings().mode == LawMode::Paper;
 }
 
-// A law at one place, with what lies below it.
-struct Pressed
-{
-  ForceLaw law;
-  std::optional<NodulesUnderTool> nodules;
-  std::shared_ptr<const StiffnessField> stiffness; // null: the same everywhere
-  Validity validity;
-
-  static StiffnessContact contactAt(const ContactGeometry& geometry)
-  {
-    return { Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), geometry.depth,
-      Eigen::Matrix3d::Zero() };
-  }
-
-  // of the law, of how the tissue varies, and of the nodules in it
-  [[nodiscard]] Response response(const ContactGeometry& geometry) const
-  {
-    Response response = law(geometry);
-    if (stiffness != nullptr)
-    {
-      response = stiffness->at(contactAt(geometry), law, geometry)(response, geometry.depth);
-    }
-    if (nodules)
-    {
-      const NoduleResponse more = nodules->at(geometry.depth).response;
-      response.force += more.force;
-      response.stiffness += more.stiffness;
-    }
-    return response;
-  }
-
-  [[nodiscard]] std::vector<Rule> rules(const ContactGeometry& geometry) const
-  {
-    const Rules all = validity(geometry);
-    std::vector<Rule> rules(all.begin(), all.end());
-    if (nodules)
-    {
-      const NoduleRules more = nodules->rules(geometry.depth, law(geometry));
-      rules.insert(rules.end(), more.begin(), more.end());
-    }
-    if (stiffness != nullptr)
-    {
-      rules.push_back(stiffness->rule(contactAt(geometry)));
-    }
-    return rules;
-  }
-};
-
 // what the columns are
-void printHead(const Pressed& pressed, const ContactGeometry& geometry, std::span<const Rule> rules)
+void printHead(
+  const PressedPlace& pressed, const ContactGeometry& geometry, std::span<const Rule> rules)
 {
   std::string header = "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm";
   if (!isPaper(pressed.law))
@@ -155,7 +110,8 @@ void printHead(const Pressed& pressed, const ContactGeometry& geometry, std::spa
 }
 
 // after the depth
-void addForces(std::vector<double>& row, const Pressed& pressed, const ContactGeometry& geometry)
+void addForces(
+  std::vector<double>& row, const PressedPlace& pressed, const ContactGeometry& geometry)
 {
   const auto& [law, nodules, stiffness, validity] = pressed;
   const Response response = pressed.response(geometry);
@@ -175,8 +131,7 @@ void addForces(std::vector<double>& row, const Pressed& pressed, const ContactGe
       row.push_back(plain > 0.0 ? response.force / plain : 1.0);
     }
     const InclinedForce felt = inclinedForce(response.force, geometry.tilt);
-    const double aside = nodules ? nodules->at(geometry.depth).lateral : 0.0;
-    row.insert(row.end(), { felt.axial, felt.lateral + aside });
+    row.insert(row.end(), { felt.axial, felt.lateral + pressed.aside(geometry).x() });
   }
 }
 
@@ -196,6 +151,18 @@ void tellLimits(
   if (given && law.settings().mode != LawMode::Corrected)
   {
     std::cerr << "palp: thickness, surface and tilt change the force with --law corrected only\n";
+  }
+}
+
+// what of a map's push the column of the lateral force leaves out, on standard error
+void tellAside(const PressedPlace& pressed, const ContactGeometry& deepest)
+{
+  constexpr double kFelt = 0.01; // of the force
+  const double across = pressed.aside(deepest).y();
+  if (std::abs(across) > kFelt * pressed.response(deepest).force)
+  {
+    std::cerr << "palp: lateral_force_N is along x; at the largest depth the map pushes by "
+              << shortest(across) << " N along y, too\n";
   }
 }
 
@@ -225,7 +192,7 @@ std::shared_ptr<const StiffnessField> stiffnessBelow(
 }
 
 // what is pressed, as deep as it will be
-Pressed pressedBy(const ForceOptions& options, double deepest)
+PressedPlace pressedBy(const ForceOptions& options, double deepest)
 {
   const ForceLaw law = options.tissue.law();
   const ContactGeometry& geometry = options.geometry.geometry;
@@ -240,7 +207,7 @@ void printForces(const ForceOptions& options)
 {
   const Range& depths = options.depths;
   ContactGeometry geometry = options.geometry.geometry;
-  const Pressed pressed = pressedBy(options, depths.si.back());
+  const PressedPlace pressed = pressedBy(options, depths.si.back());
   const std::vector<Rule> rules = pressed.rules(geometry);
   printHead(pressed, geometry, std::span(rules).first(options.validity ? rules.size() : 0));
 
@@ -260,6 +227,7 @@ void printForces(const ForceOptions& options)
     writeCsvRow(std::cout, row);
   }
   tellLimits(pressed.law, pressed.rules(geometry), geometry, options.geometry.given);
+  tellAside(pressed, geometry);
 }
 
 // force over time of a press that was given
@@ -267,7 +235,7 @@ void printHistory(const ForceOptions& options)
 {
   const ForceHistory history = readForceHistory(options.history);
   ContactGeometry geometry = options.geometry.geometry;
-  const Pressed pressed = pressedBy(options, std::max(history.deepest(), kLeastDeepest));
+  const PressedPlace pressed = pressedBy(options, std::max(history.deepest(), kLeastDeepest));
   const auto elastic = [&](double depth)
   {
     geometry.depth = depth;

@@ -67,7 +67,8 @@ std::vector<double> forcesOver(const std::function<ElasticForce(double)>& elasti
     }
     return forces;
   }
-  const ContactRows rows(elastic, std::max(history.deepest(), 1.0_um));
+  const ContactRows rows(
+    elastic, std::max(history.deepest(), 1.0_um), ContactRows::Softening::Kept);
   return forcesOver(rows, relaxation, history.points);
 }
 

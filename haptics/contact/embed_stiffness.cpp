@@ -30,6 +30,7 @@ constexpr double kSpacing = 0.25;      // of the base radius
 constexpr double kMostTables = 6000.0; // of a body
 constexpr double kPerPlace = 0.7;      // of a place, of the square of the spacing
 constexpr double kLeastKnown = 0.1;    // part of the energy; at a corner of a block a quarter is
+constexpr int kPerSpacing = 2;         // of the places around a single one, whose slope is even so
 constexpr double kPerThickness = 1.7;  // places of one kind in a doubling of the thickness
 constexpr double kPerCurvature = 4.0;  // and of the curvature, over that of the tool
 
@@ -221,13 +222,29 @@ std::shared_ptr<const StiffnessField> stiffnessUnder(
   const ForceLaw& law, const ContactGeometry& place, double deepest, const ModulusAt& modulus)
 {
   const HomogeneousPress press(law, place, std::max(deepest, kShallowest));
-  const EnergyWeights::Means means = EnergyWeights(press).means([&](const Eigen::Vector3d& at)
-    { return checkedModulus(modulus(at)) / law.material().youngModulus; });
-  const Eigen::Vector3d outward = -Eigen::Vector3d::UnitZ();
-  return std::make_shared<const StiffnessField>(press,
-    std::vector{ PlacedStiffness{ Eigen::Vector3d::Zero(), outward, logEnergies(press, means),
-      std::ranges::max(means.spreads) } },
-    1.0);
+  const EnergyWeights weights(press);
+  const auto meansAt = [&](const Eigen::Vector3d& position)
+  {
+    return weights.means([&](const Eigen::Vector3d& at)
+      { return checkedModulus(modulus(position + at)) / law.material().youngModulus; });
+  };
+  const double spread = std::ranges::max(meansAt(Eigen::Vector3d::Zero()).spreads);
+  const double spacing = kSpacing * baseRadius(law.tip());
+  constexpr int kFarthest = 4 * kPerSpacing;
+  std::vector<PlacedStiffness> places; // those beside it tell the slope of the energy
+  for (int i = -kFarthest; i <= kFarthest; ++i)
+  {
+    for (int j = -kFarthest; j <= kFarthest; ++j)
+    {
+      const Eigen::Vector3d position = spacing / kPerSpacing * Eigen::Vector3d(i, j, 0.0);
+      if (i * i + j * j <= kFarthest * kFarthest)
+      {
+        places.push_back(
+          { position, -Eigen::Vector3d::UnitZ(), logEnergies(press, meansAt(position)), spread });
+      }
+    }
+  }
+  return std::make_shared<const StiffnessField>(press, std::move(places), spacing);
 }
 
 } // namespace palp

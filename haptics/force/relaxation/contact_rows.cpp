@@ -25,7 +25,8 @@ double edgeAt(std::size_t j, double deepest)
 
 } // namespace
 
-ContactRows::ContactRows(const std::function<ElasticForce(double)>& law, double deepest)
+ContactRows::ContactRows(
+  const std::function<ElasticForce(double)>& law, double deepest, Softening softening)
 {
   double force = 0.0;
   for (std::size_t j = 0; j < kCount; ++j)
@@ -33,11 +34,18 @@ ContactRows::ContactRows(const std::function<ElasticForce(double)>& law, double 
     edges[j + 1] = edgeAt(j + 1, deepest);
     const ElasticForce at = law(edges[j + 1]);
     const double width = edges[j + 1] - edges[j];
-    total[j + 1] = std::max(total[j], at.stiffness);
+    const bool kept = softening == Softening::Kept;
+    total[j + 1] = kept ? at.stiffness : std::max(total[j], at.stiffness);
     stiffness[j] = total[j + 1] - total[j];
     // where the row must be met for the force at its lower edge to be the law's
     const double rest = at.force - force - total[j] * width;
-    depth[j] = edges[j + 1] - (rest > 0.0 ? std::min(rest / stiffness[j], width) : 0.0);
+    if (kept && !(rest * stiffness[j] > 0.0 && rest / stiffness[j] <= width))
+    {
+      stiffness[j] = rest / width; // nowhere between: as soft as the force itself tells
+      total[j + 1] = total[j] + stiffness[j];
+    }
+    const bool isMet = kept ? rest != 0.0 : rest > 0.0;
+    depth[j] = edges[j + 1] - (isMet ? std::min(rest / stiffness[j], width) : 0.0);
     force = at.force;
   }
 }

@@ -30,10 +30,17 @@ public:
   static constexpr std::size_t kCount = 240; ///< with those from there to 1 m
   static constexpr std::size_t kBlock = 24;  ///< rows between two questions of adapt()
 
-  /// @param law      force 0 and any stiffness at depth 0; stiffness must not fall with depth, and
-  ///                 where it does it is taken as constant
+  /// What becomes of a law whose stiffness falls with depth.
+  enum class Softening
+  {
+    LeftOut, ///< it is taken as constant there, so that no row is below 0
+    Kept,    ///< by rows below 0, so that the force is the law's at every edge
+  };
+
+  /// @param law      force 0 and any stiffness at depth 0
   /// @param deepest  [m], more than 0, at most 1; the finer the rows, the less it is
-  ContactRows(const std::function<ElasticForce(double)>& law, double deepest);
+  ContactRows(const std::function<ElasticForce(double)>& law, double deepest,
+    Softening softening = Softening::LeftOut);
 
   /// Gives these rows the stiffness of another place, whose ratio to the usual one is taken as a
   /// parabola through the ends of each block and the next one, and its force at a depth; below that
@@ -60,9 +67,9 @@ public:
   }
 
   std::array<double, kCount + 1> edges{}; ///< between which the rows are met [m]
-  std::array<double, kCount + 1> total{}; ///< dF/ddepth there [N/m], never falling
+  std::array<double, kCount + 1> total{}; ///< dF/ddepth there [N/m]
   std::array<double, kCount> depth{};     ///< d_j [m], never falling
-  std::array<double, kCount> stiffness{}; ///< k_j [N/m], 0 or more
+  std::array<double, kCount> stiffness{}; ///< k_j [N/m], 0 or more unless softening is kept
 
 private:
   void scaleBlock(

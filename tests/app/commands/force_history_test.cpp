@@ -76,7 +76,7 @@ TEST(ForceHistory, RelaxesFromTheInstantaneousToTheLastingForceWhateverTheTip)
 
 // Where all that lies below relaxes alike, the elastic force of a press that only goes deeper is
 // remembered as that of tissue without a nodule is: Lee and Radok's integral, here by its sum.
-TEST(ForceHistory, RemembersANoduleAndAMapAsLeeAndRadokDo)
+void expectLeeAndRadok(const std::string& options)
 {
   constexpr double kFraction = 0.5;
   constexpr double kTime = 0.2; // [s]
@@ -86,29 +86,71 @@ TEST(ForceHistory, RemembersANoduleAndAMapAsLeeAndRadokDo)
   {
     history += std::to_string(1e-3 * i) + "," + std::to_string(0.01 * std::min(i, kDown)) + "\n";
   }
+  const Finished over = force(options + " --relaxation 0.5:200ms", history);
+  ASSERT_EQ(over.code, 0) << over.err;
+  const std::vector<double> forces = test::printedTable(over)["force_N"];
+  const std::vector<double> elastic = test::printedTable(
+    test::runCommand(PALP_PROGRAM " force --depth 0:5:0.01mm " + options))["force_N"];
+  ASSERT_EQ(forces.size(), 2u * kDown + 1u);
+  ASSERT_EQ(elastic.size(), kDown + 1u);
+  for (int i = 1; i <= 2 * kDown; i += 7)
+  {
+    double expected = 0.0;
+    for (int k = 1; k <= std::min(i, kDown); ++k)
+    {
+      const double ago = 1e-3 * (i - k + 0.5);
+      expected +=
+        (1.0 - kFraction * (1.0 - std::exp(-ago / kTime))) * (elastic[k] - elastic[k - 1]);
+    }
+    ASSERT_NEAR(forces[i], expected, 2e-4 * elastic.back()) << options << ", row " << i;
+  }
+}
+
+TEST(ForceHistory, RemembersANoduleAndAMapAsLeeAndRadokDo)
+{
   for (const char* below : { "--nodule 5mm:5mm:10:3mm", "--nodule 4mm:3mm:0.2",
          "--nodule 6mm:4mm:5 --nodule 4mm:6mm:0.3:12mm", "--stiffness 'formula:if(z<2,15,5)'",
          "--stiffness 'formula:5+0.4*z'" })
   {
-    const std::string options =
-      "--young 5kPa --poisson 0.45 --law corrected --thickness 40mm " + std::string(below);
-    const Finished over = force(options + " --relaxation 0.5:200ms", history);
-    ASSERT_EQ(over.code, 0) << over.err;
-    const std::vector<double> forces = test::printedTable(over)["force_N"];
-    const std::vector<double> elastic = test::printedTable(
-      test::runCommand(PALP_PROGRAM " force --depth 0:5:0.01mm " + options))["force_N"];
-    ASSERT_EQ(forces.size(), 2u * kDown + 1u);
-    ASSERT_EQ(elastic.size(), kDown + 1u);
-    for (int i = 1; i <= 2 * kDown; i += 7)
+    expectLeeAndRadok(
+      "--young 5kPa --poisson 0.45 --law corrected --thickness 40mm " + std::string(below));
+  }
+}
+
+// the stiffness of which falls with depth: by large strain, by a map, by a soft nodule
+TEST(ForceHistory, RemembersWhatASofteningPressDoesAsLeeAndRadokDo)
+{
+  for (const char* press : { "--tip punch:4mm", "--tip punch:10mm --thickness 60mm",
+         "--tip truncated-cone:60deg:4mm:10mm --thickness 40mm --stiffness 'formula:if(z<4,40,20)'",
+         "--tip punch:4mm --material linear --thickness 40mm --nodule 5mm:4mm:.3" })
+  {
+    expectLeeAndRadok(
+      "--young 5kPa --poisson 0.45 --law corrected --base bonded " + std::string(press));
+  }
+}
+
+// no time to relax, and then all of it
+TEST(ForceHistory, BeginsAndEndsAsTheLawWhateverLiesBelow)
+{
+  for (const std::string tip : { "punch:4mm", "punch:10mm", "truncated-cone:60deg:4mm:10mm",
+         "sphere:8mm", "paraboloid:8mm", "cone:45deg:10mm", "blunt-cone:45deg:2mm:10mm" })
+  {
+    for (const std::string below :
+      { "", "--thickness 40mm", "--surface-radius 50mm --tilt 8deg", "--material linear",
+        "--coating 2mm:30kPa:0.45", "--thickness 40mm --nodule 5mm:4mm:.3",
+        "--nodule 5mm:4mm:8:3mm --nodule 3mm:9mm:0.3:12mm", "--stiffness 'formula:if(z<4,40,20)'",
+        "--thickness 40mm --stiffness 'formula:if(r<4,60,25)'" })
     {
-      double expected = 0.0;
-      for (int k = 1; k <= std::min(i, kDown); ++k)
-      {
-        const double ago = 1e-3 * (i - k + 0.5);
-        expected +=
-          (1.0 - kFraction * (1.0 - std::exp(-ago / kTime))) * (elastic[k] - elastic[k - 1]);
-      }
-      ASSERT_NEAR(forces[i], expected, 2e-4 * elastic.back()) << below << ", row " << i;
+      std::string options = "--law corrected --base bonded --young 20kPa --poisson .45 --tip ";
+      options += tip + " " + below;
+      const Finished over =
+        force(options + " --relaxation 0.3:1s", "time_s,depth_mm\n0,3\n100,3\n");
+      ASSERT_EQ(over.code, 0) << options << over.err;
+      const std::vector<double> forces = test::printedTable(over)["force_N"];
+      const double law = test::printedTable(
+        test::runCommand(PALP_PROGRAM " force --depth 3:3:1mm " + options))["force_N"][0];
+      EXPECT_NEAR(forces[0], law, 1e-9 * law) << options;
+      EXPECT_NEAR(forces[1], 0.7 * law, 1e-9 * law) << options;
     }
   }
 }

@@ -1,6 +1,7 @@
 #include "tests/app/commands/run_rig.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <sstream>
 
@@ -34,6 +35,61 @@ TEST(StiffnessCommand, ForceFollowsFiniteElementsOverFormulas)
       EXPECT_NEAR(felt["force_N"][i], one.forces[i], 0.05 * one.forces[i]) << one.formula;
     }
     EXPECT_GT(felt["factor_stiffness"][0], 1.0);
+  }
+}
+
+// of a press of 4 mm, at a step beside the origin of a map [N mm]
+double workBeside(const std::string& tip, std::string formula, double step)
+{
+  for (std::size_t at = 0; (at = formula.find('X')) != std::string::npos;)
+  {
+    formula.replace(at, 1, "(x+" + std::to_string(step) + ")");
+  }
+  const test::CsvTable felt =
+    test::printedTable(palp("force --depth 0:4:0.1mm --base bonded --thickness 40mm --tip " + tip +
+      kSoft + "--stiffness 'formula:" + formula + "'"));
+  double work = 0.0;
+  for (std::size_t i = 1; i < felt["force_N"].size(); ++i)
+  {
+    work += 0.5 * (felt["force_N"][i] + felt["force_N"][i - 1]) * 0.1;
+  }
+  return work;
+}
+
+// the lateral force is the slope of the work that is done at places beside each other
+TEST(StiffnessCommand, PushesTheToolAsideByTheSlopeOfTheWork)
+{
+  constexpr double kStep = 0.5; // [mm]
+  for (const std::string tip : { "sphere:8mm", "cone:45deg:10mm", "punch:4mm" })
+  {
+    for (const std::string formula : { "40+30*tanh(X/8)", "30+X*X/20+5*tanh((X+y)/9)",
+           "if(X>0,60,25)", "25+40*exp(-((X-6)^2+y^2+(z-8)^2)/50)" })
+    {
+      const double expected =
+        -(workBeside(tip, formula, kStep) - workBeside(tip, formula, -kStep)) / (2.0 * kStep);
+      std::string here = formula;
+      std::ranges::replace(here, 'X', 'x');
+      const test::CsvTable felt =
+        test::printedTable(palp("force --depth 4:4:1mm --base bonded --thickness 40mm --tip " +
+          tip + kSoft + "--stiffness 'formula:" + here + "'"));
+      EXPECT_NEAR(
+        felt["lateral_force_N"][0], expected, 0.02 * std::abs(expected) + 1e-3 * felt["force_N"][0])
+        << tip << ' ' << formula;
+    }
+  }
+}
+
+TEST(StiffnessCommand, TellsThePushAcrossItsColumn)
+{
+  const std::string options = "force --depth 4:4:1mm --thickness 40mm" + kSoft + "--stiffness ";
+  const Finished both = palp(options + "'formula:if(x+y>0,60,25)'");
+  EXPECT_NE(both.err.find("lateral_force_N is along x; at the largest depth the map pushes by -"),
+    std::string::npos)
+    << both.err;
+  for (const char* even : { "if(x>0,60,25)", "if(z>3,60,25)", "if(r<4,60,25)" })
+  {
+    const Finished along = palp(options + "'formula:" + even + "'");
+    EXPECT_EQ(along.err.find("along y"), std::string::npos) << along.err;
   }
 }
 
