@@ -117,6 +117,7 @@ SceneBody loadParts(
   body.sources = meshes;
   Union display;
   Union haptic;
+  std::vector<MappedPart> mapped;
   // with what is felt: levels that the user names may be of two bodies
   const bool isCompared = shown ||
     std::ranges::any_of(meshes, [](const MeshSource& mesh) { return !mesh.haptic.empty(); });
@@ -148,10 +149,7 @@ SceneBody loadParts(
       nodule.center = source.frame() * nodule.center;
       body.nodules.push_back(nodule);
     }
-    if (source.stiffness.isGiven())
-    {
-      body.stiffness = placedMap(source, pointsOf(*loaded.mesh), std::move(body.stiffness));
-    }
+    source.stiffness.isGiven() ? mapped.push_back({ &source, pointsOf(*loaded.mesh) }) : void();
     origin.moved = !source.frame().isApprox(Eigen::Isometry3d::Identity());
     body.compliance = placedCompliance(meshes, origin);
     noteAxes(source.supports, spaceOf({ origin }), body.notes);
@@ -159,6 +157,7 @@ SceneBody loadParts(
   }
   progress.emplace("preparing " + printable(body.name));
   body.haptic = std::make_shared<const Surface>(haptic.points, haptic.triangles);
+  body.stiffness = placedMap(mapped, *body.haptic);
   if (body.haptic->crossing())
   {
     body.notes.push_back(describeCrossing(*body.haptic->crossing()));

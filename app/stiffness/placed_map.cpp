@@ -3,30 +3,53 @@
 #include "app/input/scene_plan.h"
 #include "haptics/files/input_text.h"
 #include "haptics/surface/area_and_volume.h"
+#include "haptics/surface/closest_point.h"
 #include "pipeline/tissue/stiffness_source.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace palp
 {
 
-TissueMap placedMap(
-  const MeshSource& source, std::span<const Eigen::Vector3d> points, TissueMap before)
+namespace
 {
+
+// of one part; before: of the parts before it
+TissueMap placedMap(const MappedPart& part, const Surface& body, TissueMap before)
+{
+  const MeshSource& source = *part.source;
   const Eigen::Isometry3d toFile = source.frame().inverse();
-  Eigen::AlignedBox3d box = boxAbout(points);
+  Eigen::AlignedBox3d box = boxAbout(part.points);
   constexpr double kMargin = 0.01; // [m] beside the body, for what lies along its border
   // a formula need not make sense beside the body
   const double margin = source.stiffness.kind == StiffnessSource::Kind::Formula ? 0.0 : kMargin;
   box.extend(box.min() - Eigen::Vector3d::Constant(margin));
   box.extend(box.max() + Eigen::Vector3d::Constant(margin));
-  return [map = tissueMapOf(source.stiffness, source.unit, box), before = std::move(before),
+  const auto off = [&](const Eigen::Vector3d& position)
+  {
+    return distanceTo(
+      body.tree(), source.frame() * position, std::numeric_limits<double>::infinity());
+  };
+  return [map = tissueMapOf(source.stiffness, source.unit, box, off), before = std::move(before),
            toFile](const Eigen::Vector3d& position, double young)
   {
     const double known = before ? before(position, young) : std::nan("");
     return std::isnan(known) ? map(toFile * position, young) : known;
   };
+}
+
+} // namespace
+
+TissueMap placedMap(std::span<const MappedPart> parts, const Surface& body)
+{
+  TissueMap map;
+  for (const MappedPart& part : parts)
+  {
+    map = placedMap(part, body, std::move(map));
+  }
+  return map;
 }
 
 std::string labelsWithoutTissue(

@@ -223,7 +223,8 @@ private:
     {
       fit.extra.low = fit.extra.high = fit.extra.value;
     }
-    fit.scale.low = std::max(0.0, scaleEnd(fit, -1.0));
+    const double lowest = scaleEnd(fit, -1.0);
+    fit.scale.low = lowest > 0.0 ? lowest : -kInfinity; // none is below 0, whatever the curve
     fit.scale.high = scaleEnd(fit, 1.0);
     const auto [low, high] = contactInterval(fit);
     fit.contact = { fit.contact.value, low, high };

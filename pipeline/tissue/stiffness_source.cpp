@@ -5,8 +5,8 @@
 namespace palp
 {
 
-TissueMap tissueMapOf(
-  const StiffnessSource& source, UnitChoice unit, const Eigen::AlignedBox3d& box)
+TissueMap tissueMapOf(const StiffnessSource& source, UnitChoice unit,
+  const Eigen::AlignedBox3d& box, const SurfaceDistance& off)
 {
   using Kind = StiffnessSource::Kind;
   try
@@ -18,7 +18,7 @@ TissueMap tissueMapOf(
       case Kind::Image:
         return mapOfImage(source.file, unit);
       case Kind::Array:
-        return mapOfArray(source.file, unit, source.text, box);
+        return mapOfArray(source.file, unit, source.text, box, off);
       case Kind::Formula:
         return mapOfFormula(source.text, box);
       case Kind::Random:

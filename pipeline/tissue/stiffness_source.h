@@ -36,9 +36,10 @@ struct StiffnessSource
 
 /// @param unit    of the coordinates of its file, where that names none
 /// @param box     of the body in the frame of its file [m]
+/// @param off     the surface of the body; empty: an array's is not compared with it
 /// @return        empty where none is given
 /// @throws Error  as the functions of tissue_map.h, with the key before it
-[[nodiscard]] TissueMap tissueMapOf(
-  const StiffnessSource& source, UnitChoice unit, const Eigen::AlignedBox3d& box);
+[[nodiscard]] TissueMap tissueMapOf(const StiffnessSource& source, UnitChoice unit,
+  const Eigen::AlignedBox3d& box, const SurfaceDistance& off = {});
 
 } // namespace palp

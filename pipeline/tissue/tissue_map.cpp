@@ -109,6 +109,32 @@ std::vector<float> measured(
   return moduli;
 }
 
+// another frame or unit, a scaled copy within the body included, is told by its own size
+void checkOnSurface(const std::filesystem::path& file, const std::vector<Eigen::Vector3d>& points,
+  const SurfaceDistance& off)
+{
+  constexpr double kApart = 0.03;   // of the size: what is smoothed, or another's segmentation
+  constexpr double kCoarsest = 0.1; // of the size: between the points of a copy that bulges less
+  std::vector<double> distances;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points)
+  {
+    distances.push_back(off(point));
+    box.extend(point);
+  }
+  const auto farther = distances.begin() + static_cast<std::ptrdiff_t>(9 * points.size() / 10);
+  std::ranges::nth_element(distances, farther);
+  const double size = box.diagonal().norm();
+  const double spacing = size / std::sqrt(static_cast<double>(points.size()));
+  if (*farther > kApart * size + std::min(spacing, kCoarsest * size))
+  {
+    refuseMap(file,
+      "its surface is not that of the body: a tenth of its points are " +
+        units::inMillimeters(*farther) +
+        " or more off it; give it in the frame and the unit of the body");
+  }
+}
+
 std::map<float, double> youngByValue(
   const std::filesystem::path& file, const FileValues& image, std::span<const LabelModulus> labels)
 {
@@ -200,9 +226,10 @@ TissueMap mapOfImage(const std::filesystem::path& file, UnitChoice unit)
 }
 
 TissueMap mapOfArray(const std::filesystem::path& file, UnitChoice unit, const std::string& array,
-  const Eigen::AlignedBox3d& box)
+  const Eigen::AlignedBox3d& box, const SurfaceDistance& off)
 {
   const FileValues surface = valuesIn(file, unit, array);
+  off ? checkOnSurface(file, surface.points, off) : void();
   const bool isInPascals = array.ends_with("Pa") && !array.ends_with("kPa");
   const std::vector<float> moduli = measured(file, surface.values, isInPascals ? 1.0 : 1.0_kPa);
   vtkNew<vtkPoints> points;

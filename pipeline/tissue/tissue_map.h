@@ -40,12 +40,18 @@ struct LabelModulus
 /// @throws Error  BadFile: unreadable, a value that is negative or no number, or none above 0
 [[nodiscard]] TissueMap mapOfImage(const std::filesystem::path& file, UnitChoice unit);
 
+/// How far a point is off the surface of a body, in the frame of its file [m].
+using SurfaceDistance = std::function<double(const Eigen::Vector3d& position)>;
+
 /// By an array of a surface in kPa, or in Pa where its name ends so: in the body as at the nearest
-/// place of the surface.
+/// place of the surface, which may be a part, a coarser or a smoother copy of the body's own.
 /// @param box     of the body, in the frame of its file [m]
-/// @throws Error  as mapOfImage; BadFile: no such array
+/// @param off     the surface of the body; empty: not compared
+/// @throws Error  as mapOfImage; BadFile: no such array, or a tenth of the surface's points is
+///                farther off the body's than 3 % of its own size and the distance of its points,
+///                of which no more than 10 % of its size count
 [[nodiscard]] TissueMap mapOfArray(const std::filesystem::path& file, UnitChoice unit,
-  const std::string& array, const Eigen::AlignedBox3d& box);
+  const std::string& array, const Eigen::AlignedBox3d& box, const SurfaceDistance& off);
 
 /// By a formula, see TissueFormula.
 /// @throws Error  BadValue: as TissueFormula, at a place of the box
