@@ -164,7 +164,7 @@ PlacedStiffness placedAt(
   {
     refuseUnknown(position);
   }
-  return { position, normal, logEnergies(below.press, means), std::ranges::max(means.spreads) };
+  return { position, normal, logEnergies(below.press, means), means.spreads };
 }
 
 } // namespace
@@ -228,7 +228,7 @@ std::shared_ptr<const StiffnessField> stiffnessUnder(
     return weights.means([&](const Eigen::Vector3d& at)
       { return checkedModulus(modulus(position + at)) / law.material().youngModulus; });
   };
-  const double spread = std::ranges::max(meansAt(Eigen::Vector3d::Zero()).spreads);
+  const std::vector<double> spreads = meansAt(Eigen::Vector3d::Zero()).spreads;
   const double spacing = kSpacing * baseRadius(law.tip());
   constexpr int kFarthest = 4 * kPerSpacing;
   std::vector<PlacedStiffness> places; // those beside it tell the slope of the energy
@@ -240,7 +240,7 @@ std::shared_ptr<const StiffnessField> stiffnessUnder(
       if (i * i + j * j <= kFarthest * kFarthest)
       {
         places.push_back(
-          { position, -Eigen::Vector3d::UnitZ(), logEnergies(press, meansAt(position)), spread });
+          { position, -Eigen::Vector3d::UnitZ(), logEnergies(press, meansAt(position)), spreads });
       }
     }
   }

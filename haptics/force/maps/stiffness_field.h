@@ -20,7 +20,7 @@ struct PlacedStiffness
   Eigen::Vector3d position;      ///< on the surface [m]
   Eigen::Vector3d normal;        ///< outward, of unit length
   std::vector<double> logEnergy; ///< of the energy over that of the law, at each knot of a press
-  double spread = 0.0;           ///< see EnergyWeights::Means [-]
+  std::vector<double> spreads;   ///< see EnergyWeights::Means, at each knot [-]
 };
 
 /// Where a tool touches, on the undeformed surface.
@@ -87,7 +87,7 @@ public:
   [[nodiscard]] Blend at(const StiffnessContact& contact, const ForceLaw& law,
     const ContactGeometry& geometry) const noexcept;
 
-  /// Whether the stiffness varies more than in what the law was compared with.
+  /// Whether the stiffness varies more, for a press of that depth, than where the law holds.
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] Rule rule(const StiffnessContact& contact) const noexcept;
 
@@ -102,11 +102,13 @@ public:
   }
 
 private:
+  static constexpr int kSpreads = 8; // intervals of sqrt(depth)
+
   struct Place
   {
     Eigen::Vector3f position;
     Eigen::Vector3f normal;
-    float spread;
+    std::array<float, kSpreads + 1> spreads;
     std::array<float, HomogeneousPress::kIntervals + 3> logs; // coefficients of a spline
   };
 

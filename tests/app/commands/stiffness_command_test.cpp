@@ -1,4 +1,5 @@
 #include "tests/app/commands/run_rig.h"
+#include "tests/haptics/force/reference_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +92,30 @@ TEST(StiffnessCommand, TellsThePushAcrossItsColumn)
     const Finished along = palp(options + "'formula:" + even + "'");
     EXPECT_EQ(along.err.find("along y"), std::string::npos) << along.err;
   }
+}
+
+// linear finite elements over maps about the axis
+TEST(StiffnessCommand, FlagsWhereMapsAreMoreThanFivePercentOff)
+{
+  std::size_t flagged = 0;
+  std::size_t kept = 0;
+  for (const test::ReferenceRow& row : test::referenceTable("maps_tools"))
+  {
+    std::string map = row.text("map");
+    std::ranges::replace(map, ';', ',');
+    const std::string depth = row.text("depth_mm");
+    const test::CsvTable felt =
+      test::printedTable(palp("force --law corrected --material linear --base bonded --poisson .45 "
+                              "--young 30kPa --thickness 40mm --validity --tip " +
+        row.text("tip") + " --depth " + depth + ":" + depth + ":1mm --stiffness 'formula:" + map +
+        "'"));
+    const double error = felt["force_N"][0] / row.number("force_N") - 1.0;
+    const bool isFlagged = felt["stiffness_spread_of_limit"][0] > 1.0;
+    EXPECT_LT(std::abs(error), isFlagged ? 0.13 : 0.05) << row.text("tip") << ' ' << map;
+    (isFlagged ? flagged : kept) += 1;
+  }
+  EXPECT_GT(kept, 30u);
+  EXPECT_GT(flagged, 60u);
 }
 
 // A block of 100 x 100 x 50 mm in voxels of 1 mm, with a sheet of 2 mm on top.
