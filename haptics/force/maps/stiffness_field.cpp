@@ -18,7 +18,7 @@ constexpr double kReach = 2.3;   // spacings
 constexpr int kSharpenings = 12; // after which the blend goes through the places' values
 constexpr double kBeside = 0.5;  // cosine of normals from which on a place counts in full
 // up to which the force is within 5 % of finite elements, whatever the tool and the map
-constexpr double kSpread = 0.035;
+constexpr double kSpread = 0.05;
 
 // energy over force times depth: 1/2 of a flat punch, 2/5 of a sphere, 1/3 of a cone
 std::vector<double> energyParts(const HomogeneousPress& press)

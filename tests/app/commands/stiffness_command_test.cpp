@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <sstream>
 
 namespace palp
@@ -94,27 +95,40 @@ TEST(StiffnessCommand, TellsThePushAcrossItsColumn)
   }
 }
 
-// linear finite elements over maps about the axis
+// linear finite elements over maps about the axis, beside what they are off over an even body
 TEST(StiffnessCommand, FlagsWhereMapsAreMoreThanFivePercentOff)
 {
+  std::map<std::string, test::CsvTable> felt; // at 2 to 5 mm
+  std::map<std::string, double> even;         // 0 but for the cone, whose tip they round
   std::size_t flagged = 0;
   std::size_t kept = 0;
   for (const test::ReferenceRow& row : test::referenceTable("maps_tools"))
   {
+    const std::string tip = row.text("tip");
     std::string map = row.text("map");
     std::ranges::replace(map, ';', ',');
-    const std::string depth = row.text("depth_mm");
-    const test::CsvTable felt =
-      test::printedTable(palp("force --law corrected --material linear --base bonded --poisson .45 "
-                              "--young 30kPa --thickness 40mm --validity --tip " +
-        row.text("tip") + " --depth " + depth + ":" + depth + ":1mm --stiffness 'formula:" + map +
-        "'"));
-    const double error = felt["force_N"][0] / row.number("force_N") - 1.0;
-    const bool isFlagged = felt["stiffness_spread_of_limit"][0] > 1.0;
-    EXPECT_LT(std::abs(error), isFlagged ? 0.13 : 0.05) << row.text("tip") << ' ' << map;
+    const std::string options = tip + " --stiffness 'formula:" + map + "'";
+    if (!felt.contains(options))
+    {
+      felt[options] = test::printedTable(
+        palp("force --law corrected --material linear --base bonded --poisson .45 --young 30kPa "
+             "--thickness 40mm --validity --depth 2:5:1mm --tip " +
+          options));
+    }
+    test::CsvTable& law = felt[options];
+    const auto at = static_cast<std::size_t>(row.number("depth_mm")) - 2;
+    const std::string press = tip + row.text("depth_mm");
+    const double error = law["force_N"][at] / row.number("force_N") - 1.0;
+    if (map == "30")
+    {
+      even[press] = error;
+      continue;
+    }
+    const bool isFlagged = law["stiffness_spread_of_limit"][at] > 1.0;
+    EXPECT_LT(std::abs(error - even[press]), isFlagged ? 0.13 : 0.05) << options << press;
     (isFlagged ? flagged : kept) += 1;
   }
-  EXPECT_GT(kept, 30u);
+  EXPECT_GT(kept, 80u);
   EXPECT_GT(flagged, 60u);
 }
 
