@@ -7,6 +7,7 @@
 #include "haptics/error.h"
 #include "haptics/threads/realtime.h"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
@@ -54,10 +55,11 @@ ArmExchange exchangeOf(Driver& driver, DriverSample& sample)
     std::this_thread::sleep_until(due);
     const auto sent = Clock::now();
     constexpr int kPatience = 20;
+    constexpr int kPushes = 5; // of these, before one that does not answer gets no force
     IoCode code = IoCode::Timeout;
     for (int i = 0; code == IoCode::Timeout && i < kPatience; ++i)
     {
-      code = driver.tick(force, 0.001, sample);
+      code = driver.tick(i < kPushes ? force : Eigen::Vector3d::Zero(), 0.001, sample);
     }
     if (code != IoCode::Ok || !sample.homed || sample.stopped)
     {
@@ -81,6 +83,21 @@ void waitForHoming(Driver& driver, DriverSample& sample)
   {
     (void)driver.tick(Eigen::Vector3d::Zero(), 0.001, sample);
     std::this_thread::sleep_for(1ms);
+  }
+}
+
+// what hardly is of an arm, but of a computer that was late or of one axis that is told wrong
+void tellDoubts(const IdentifiedArm& arm)
+{
+  constexpr double kUnlike = 4.0;
+  constexpr double kLongest = 7.9e-3; // of the delays that are looked for [s]
+  const auto [light, heavy] = std::ranges::minmax(arm.axes, {}, &ArmAxis::mass);
+  if (heavy.mass > kUnlike * light.mass || arm.delay > kLongest)
+  {
+    std::printf("  Doubtful: %s. Measure again with nothing else running; if it stays, look at the "
+                "encoders and the configuration.\n",
+      arm.delay > kLongest ? "a delay of 8 ms is the longest that is looked for"
+                           : "one axis is more than four times as heavy as another");
   }
 }
 
@@ -115,6 +132,7 @@ void tell(const IdentifiedArm& arm)
                                    "on the handle measures it.\n"
                                  : "  A hand feels %.2f of each newton that it is told.\n",
       arm.scale);
+    tellDoubts(arm);
   }
   std::fflush(stdout);
 }

@@ -127,7 +127,13 @@ public:
     , turns_(hasWrist_ && library.hasActiveWrist(arm))
   {
     (void)library_.setWatchdog(kWatchdog, arm_);
-    (void)library_.enableForce(1, arm_);
+    if (library_.enableForce(1, arm_) < 0)
+    {
+      (void)library_.close(arm_);
+      throw Error(ErrorCode::NoDevice,
+        "Force Dimension " + name_ +
+          ": its motors cannot be enabled; release its emergency stop, and try again");
+    }
   }
   ~ForceDimensionDriver() override
   {
@@ -178,7 +184,9 @@ public:
       return IoCode::Gone;
     }
     homed_ = library_.isInitialized(arm_);
-    if (!place.allFinite())
+    constexpr double kFarthest = 2.0; // that any of their arms reaches [m]
+    const auto turned = Eigen::Map<const Eigen::Matrix3d>(&frame[0][0]);
+    if (!place.allFinite() || place.norm() > kFarthest || !turned.allFinite())
     {
       return IoCode::Timeout;
     }

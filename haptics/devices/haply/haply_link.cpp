@@ -8,6 +8,7 @@
 #include <libwebsockets.h>
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/socket.h>
 #include <utility>
 #include <vector>
 
@@ -32,8 +33,8 @@ struct HaplyLink::Service
   static int callback(
     lws* socket, lws_callback_reasons reason, void* unused, void* data, std::size_t size);
   bool receive(lws* socket, std::string_view part);
-  void send(lws* socket);
-  bool write(lws* socket, const Eigen::Vector3d& force, bool first);
+  bool send(lws* socket);
+  void endForce() noexcept;
   void run(const std::stop_token& stop);
   void end() noexcept
   {
@@ -103,10 +104,17 @@ int HaplyLink::Service::callback(
       }
       return 0;
     case LWS_CALLBACK_CLIENT_WRITEABLE:
-      self()->send(socket);
+      if (!self()->send(socket))
+      {
+        self()->end();
+      }
+      return 0;
+    case LWS_CALLBACK_WS_PEER_INITIATED_CLOSE: // what follows our own close is not read
+      self()->endForce();
       return 0;
     case LWS_CALLBACK_CLIENT_CONNECTION_ERROR:
     case LWS_CALLBACK_CLIENT_CLOSED:
+      self()->endForce();
       self()->connection = nullptr;
       self()->end();
       return 0;
@@ -136,31 +144,33 @@ bool HaplyLink::Service::receive(lws* socket, std::string_view part)
   return understood;
 }
 
-bool HaplyLink::Service::write(lws* socket, const Eigen::Vector3d& force, bool first)
-{
-  const std::string text = haplyCommand(state, force, first);
-  std::vector<unsigned char> buffer(LWS_PRE + text.size());
-  std::memcpy(buffer.data() + LWS_PRE, text.data(), text.size());
-  return lws_write(socket, buffer.data() + LWS_PRE, text.size(), LWS_WRITE_TEXT) >= 0;
-}
-
-void HaplyLink::Service::send(lws* socket)
+bool HaplyLink::Service::send(lws* socket)
 {
   const int asked = link.asked_;
   if (asked == answered || state.id.front() == 0)
   {
-    return;
+    return true;
   }
   const Eigen::Vector3d& force = link.forces_.read();
   const bool pushes = !force.isZero(0.0);
   link.pushes_ = link.pushes_ || pushes;
-  if (!write(socket, force, answered == 0))
-  {
-    end();
-    return;
-  }
-  link.pushes_ = pushes;
+  const std::string text = haplyCommand(state, force, answered == 0);
   answered = asked;
+  std::vector<unsigned char> buffer(LWS_PRE + text.size());
+  std::memcpy(buffer.data() + LWS_PRE, text.data(), text.size());
+  const bool isSent = lws_write(socket, buffer.data() + LWS_PRE, text.size(), LWS_WRITE_TEXT) >= 0;
+  link.pushes_ = pushes || !isSent;
+  return isSent;
+}
+
+// past the library, which takes nothing more for a connection that it gives up
+void HaplyLink::Service::endForce() noexcept
+{
+  if (link.pushes_)
+  {
+    const ZeroPacket zero = haplyZero(state);
+    (void)::send(link.socket_.get(), zero.bytes.data(), zero.size, MSG_DONTWAIT | MSG_NOSIGNAL);
+  }
 }
 
 // however it ends, the last command is one of no force
@@ -169,10 +179,7 @@ void HaplyLink::Service::run(const std::stop_token& stop)
   while (!stop.stop_requested() && !link.gone_ && lws_service(context, 0) >= 0)
   {
   }
-  if (connection != nullptr && link.pushes_)
-  {
-    (void)write(connection, Eigen::Vector3d::Zero(), false);
-  }
+  endForce();
   end();
 }
 

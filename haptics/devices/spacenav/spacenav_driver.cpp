@@ -93,7 +93,8 @@ private:
   [[nodiscard]] static bool hasEnded() noexcept
   {
     char one = 0;
-    return recv(spnav_fd(), &one, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+    const int socket = spnav_fd(); // -1 once it has noticed
+    return socket < 0 || recv(socket, &one, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
   }
 
   SpaceMouseState state_;

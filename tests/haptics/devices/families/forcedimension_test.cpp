@@ -2,6 +2,7 @@
 #include "haptics/error.h"
 #include "haptics/units.h"
 #include "tests/haptics/devices/families/made_up_drd.h"
+#include "tests/haptics/devices/families/one_sentence.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -179,15 +180,29 @@ TEST_F(ForceDimension, ItsEndIsToldAndLeavesNoForce)
     (void)driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample_);
     (void)driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample_);
     EXPECT_EQ(arm_->force[2], 1.0);
-    arm_->place[0] = std::nan("");
-    EXPECT_EQ(driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample_), IoCode::Timeout);
+    for (const double nowhere : { std::nan(""), 1e6 })
+    {
+      arm_->place[0] = nowhere;
+      EXPECT_EQ(driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample_), IoCode::Timeout);
+    }
     arm_->place[0] = 0.0;
+    arm_->frame[1][2] = std::nan("");
+    EXPECT_EQ(driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample_), IoCode::Timeout);
+    arm_->frame[1][2] = 0.0;
     arm_->there = false;
     EXPECT_EQ(driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample_), IoCode::Gone);
     arm_->there = true;
   }
   EXPECT_EQ(arm_->force[2], 0.0);
   EXPECT_FALSE(arm_->open || arm_->forceOn);
+}
+
+TEST_F(ForceDimension, IsNotOpenedWhereItsMotorsStayOff)
+{
+  arm_->enables = false;
+  test::expectRefusedInOneSentence(kName);
+  EXPECT_FALSE(arm_->open);
+  arm_->enables = true;
 }
 
 TEST_F(ForceDimension, SaysInOneSentenceWhatIsMissing)

@@ -29,6 +29,7 @@ enum class Habit
   Half,      // a frame that never ends
   Large,     // 100 MB
   Garbage,   // no JSON
+  Opcode,    // a frame of a kind that there is none of
   OtherArm,  // the arm is gone from the list
   NoWhere,   // a place that is no number
   Closes,
@@ -221,6 +222,9 @@ private:
         return;
       case Habit::Garbage:
         say(frame(R"({"inverse3": [)", 0x81));
+        return;
+      case Habit::Opcode:
+        say(frame("x", 0x85));
         return;
       case Habit::Closes:
         shutdown(client_, SHUT_RDWR);

@@ -184,7 +184,8 @@ TEST(Haply, ItsGuardianEndsTheForceOfAProgramThatIsSilent)
 
 TEST(Haply, HoweverItEndsTheLastCommandIsOfNoForce)
 {
-  for (const Habit habit : { Habit::Good, Habit::Garbage, Habit::OtherArm, Habit::NoWhere })
+  for (const Habit habit :
+    { Habit::Good, Habit::Garbage, Habit::Opcode, Habit::OtherArm, Habit::NoWhere })
   {
     HaplyService service(kInventory);
     auto driver = open(service);

@@ -40,8 +40,8 @@ extern "C"
   }
   int dhdEnableForce(unsigned char on, char)
   {
-    gArm.forceOn = on != 0;
-    return 0;
+    gArm.forceOn = on != 0 && gArm.enables;
+    return gArm.enables ? 0 : -1;
   }
   int dhdSetWatchdog(unsigned char steps, char)
   {

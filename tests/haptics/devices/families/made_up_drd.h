@@ -6,6 +6,7 @@ struct DrdArm
   bool there = true;
   bool open = false;
   bool initialized = false; ///< its pole was put into its pit
+  bool enables = true;      ///< its motors, when asked to
   bool forceOn = false;
   const char* name = "omega.7";
   bool hasWrist = true;
