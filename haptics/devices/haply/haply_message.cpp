@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
-#include <vector>
 
 namespace palp
 {
@@ -138,20 +137,23 @@ std::string haplyCommand(const HaplyState& arm, const Eigen::Vector3d& force, bo
 ZeroPacket haplyZero(const HaplyState& arm)
 {
   constexpr std::size_t kShort = 125; // of a length in one byte
-  constexpr std::uint8_t kMasked = 0x80;
+  constexpr std::byte kText{ 0x81 };
+  constexpr std::byte kMasked{ 0x80 };
+  constexpr std::size_t kKey = 4; // bytes of it
   const std::string text = haplyCommand(arm, Eigen::Vector3d::Zero(), false);
   const bool isShort = text.size() <= kShort;
-  std::vector<std::uint8_t> frame{ kMasked | 1U, kMasked };
-  frame[1] |= static_cast<std::uint8_t>(isShort ? text.size() : kShort + 1);
+  ZeroPacket zero;
+  zero.bytes[0] = kText;
+  zero.bytes[1] = kMasked | static_cast<std::byte>(isShort ? text.size() : kShort + 1);
   if (!isShort)
   {
-    frame.insert(frame.end(),
-      { static_cast<std::uint8_t>(text.size() >> 8U), static_cast<std::uint8_t>(text.size()) });
+    zero.bytes[2] = static_cast<std::byte>(text.size() >> 8U);
+    zero.bytes[3] = static_cast<std::byte>(text.size());
   }
-  frame.insert(frame.end(), 4, 0);
-  frame.insert(frame.end(), text.begin(), text.end());
-  ZeroPacket zero{ .size = frame.size() };
-  std::memcpy(zero.bytes.data(), frame.data(), std::min(frame.size(), ZeroPacket::kLargest));
+  const std::size_t front = (isShort ? 2 : 4) + kKey;
+  const std::size_t size = std::min(text.size(), ZeroPacket::kLargest - front);
+  std::memcpy(&zero.bytes[front], text.data(), size);
+  zero.size = front + size;
   return zero;
 }
 

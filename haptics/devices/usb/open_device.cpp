@@ -259,8 +259,12 @@ std::string identityOf(const std::string& name)
 {
   const auto [kind, rest] = parts(name);
   const std::string board = rest.empty() ? "" : boardAt(boardParts(rest).first);
-  return kind + (board.empty() ? "" : " " + board) +
-    (kind == "wooden" ? " " + configurationOf(rest) : "");
+  std::string identity = kind;
+  for (const std::string& part : { board, kind == "wooden" ? configurationOf(rest) : "" })
+  {
+    identity.append(part.empty() ? "" : " ").append(part);
+  }
+  return identity;
 }
 
 std::unique_ptr<Device> openDevice(const std::string& name, const DevicePlacement& placement,
