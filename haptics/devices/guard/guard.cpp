@@ -1,6 +1,7 @@
 #include "haptics/devices/guard/guard.h"
 
 #include "haptics/error.h"
+#include "haptics/files/descriptor.h"
 #include "haptics/files/prefix.h"
 
 #include <array>
@@ -23,35 +24,6 @@ namespace palp
 {
 namespace
 {
-
-class Descriptor
-{
-public:
-  explicit Descriptor(int owned) noexcept
-    : file_(owned)
-  {
-  }
-  ~Descriptor()
-  {
-    if (file_ >= 0)
-    {
-      close(file_);
-    }
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const noexcept
-  {
-    return file_;
-  }
-  [[nodiscard]] int release() noexcept
-  {
-    return std::exchange(file_, -1);
-  }
-
-private:
-  int file_;
-};
 
 // a copy above those that a guardian is born with
 int copied(int file) noexcept
@@ -146,7 +118,7 @@ Guard::Guard(int device, GuardWire wire, const ZeroPacket& zero)
     munmap(mapped, sizeof(GuardBlock));
     throw;
   }
-  link_ = ours.release();
+  link_ = copied(ours.get());
   constexpr auto kPatience = std::chrono::seconds(5); // of a machine with much else to do
   for (const auto last = std::chrono::steady_clock::now() + kPatience; block_->watched == 0;)
   {
