@@ -75,6 +75,21 @@ bool pushesUntilHeard(
     replies(driver, force, sample);
 }
 
+// a service of today or of version 3.1, and what drives its arm
+struct ServiceOf
+{
+  explicit ServiceOf(bool old)
+    : service(old ? kOldInventory : kInventory)
+  {
+    service.word = old ? "values" : "vector";
+    driver = open(service);
+  }
+
+  HaplyService service;
+  std::unique_ptr<Driver> driver;
+  DriverSample sample;
+};
+
 void waits()
 {
   std::this_thread::sleep_for(1ms);
@@ -84,10 +99,8 @@ TEST(Haply, PushesAndTellsWhereItIs)
 {
   for (const bool old : { false, true })
   {
-    HaplyService service(old ? kOldInventory : kInventory);
-    service.word = old ? "values" : "vector";
-    const auto driver = open(service);
-    DriverSample sample;
+    ServiceOf whole(old);
+    auto& [service, driver, sample] = whole;
     ASSERT_TRUE(pushesUntilHeard(*driver, service, Vector3d(0.5, -1.0, 2.0), sample));
     EXPECT_EQ(service.bad, 0);
     EXPECT_TRUE(sample.sent->isApprox(sample.sent->norm() * Vector3d(0.5, -1.0, 2.0).normalized()));
@@ -170,10 +183,8 @@ TEST(Haply, ItsGuardianEndsTheForceOfAProgramThatIsSilent)
 {
   for (const bool old : { false, true })
   {
-    HaplyService service(old ? kOldInventory : kInventory);
-    service.word = old ? "values" : "vector";
-    const auto driver = open(service);
-    DriverSample sample;
+    ServiceOf whole(old);
+    auto& [service, driver, sample] = whole;
     ASSERT_TRUE(pushesUntilHeard(*driver, service, Vector3d(0, 0, 2), sample));
     EXPECT_TRUE(hears(service, Vector3d::Zero(), waits));
     EXPECT_EQ(service.bad, 0);
