@@ -34,7 +34,7 @@ struct HaplyLink::Service
     lws* socket, lws_callback_reasons reason, void* unused, void* data, std::size_t size);
   bool receive(lws* socket, std::string_view part);
   bool send(lws* socket);
-  void endForce() noexcept;
+  void endForce();
   void run(const std::stop_token& stop);
   void end() noexcept
   {
@@ -164,7 +164,7 @@ bool HaplyLink::Service::send(lws* socket)
 }
 
 // past the library, which takes nothing more for a connection that it gives up
-void HaplyLink::Service::endForce() noexcept
+void HaplyLink::Service::endForce()
 {
   if (link.pushes_)
   {

@@ -17,7 +17,7 @@ constexpr std::uint16_t kProduct = 0xcb48;
 constexpr unsigned char kOut = 0x02;
 constexpr unsigned char kIn = 0x81;
 constexpr std::uint8_t kVendorRequest = 0x40;
-constexpr unsigned kPatience = 100; // for what should take no time [ms]
+constexpr unsigned kTransferPatience = 100; // for what should take no time [ms]
 
 using Context = std::unique_ptr<libusb_context, decltype(&libusb_exit)>;
 using Handle = std::unique_ptr<libusb_device_handle, decltype(&libusb_close)>;
@@ -113,7 +113,7 @@ public:
     // libusb takes what it only reads as if it wrote it
     auto* data = reinterpret_cast<unsigned char*>(const_cast<std::byte*>(bytes.data()));
     const int error = libusb_bulk_transfer(
-      handle_.get(), kOut, data, static_cast<int>(bytes.size()), &size, kPatience);
+      handle_.get(), kOut, data, static_cast<int>(bytes.size()), &size, kTransferPatience);
     clearHalt(kOut, error);
     return codeOf(error);
   }
@@ -121,7 +121,7 @@ public:
   [[nodiscard]] bool request(std::uint8_t what, std::uint16_t value) noexcept override
   {
     return libusb_control_transfer(
-             handle_.get(), kVendorRequest, what, value, 0, nullptr, 0, kPatience) >= 0;
+             handle_.get(), kVendorRequest, what, value, 0, nullptr, 0, kTransferPatience) >= 0;
   }
 
 private:
