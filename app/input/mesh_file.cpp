@@ -157,9 +157,9 @@ std::string describe(const MeshFile& mesh)
 
 std::string identityOf(MeshFile mesh)
 {
-  mesh.name.clear();
+  mesh.name.clear(); // a copy under another name is the same
   mesh.moved = false;
-  return std::string(trimmed(describe(mesh)));
+  return std::string(trimmed(describe(mesh).substr(2)));
 }
 
 std::string noteOfPath(std::string_view path, const std::vector<MeshFile>& felt)

@@ -116,7 +116,7 @@ void checkHeld(std::span<const SupportGrip> grips, double size)
     throw Error(ErrorCode::BadValue,
       "the supports, in " + std::to_string(grips.size()) +
         (grips.size() == 1 ? " cell" : " cells") + ", leave the body free to " + motion +
-        "; add one that holds it, or give smaller cells");
+        "; add one that holds it, or give smaller cells where it is thinner than two of them");
   }
 }
 

@@ -73,6 +73,16 @@ double numberOf(const std::filesystem::path& file, const NumberTable& table, con
     : (refuse(file, "'# " + key + ":' is no number above 0; make it again by palp organ"), 0.0);
 }
 
+double poissonOf(const std::filesystem::path& file, const NumberTable& table)
+{
+  const auto number = csvNumber(textOf(file, table, "poisson"));
+  return number && *number >= 0.0 && *number < 0.5
+    ? *number
+    : (refuse(
+         file, "'# poisson:' is no number from 0 to less than 0.5; make it again by palp organ"),
+        0.0);
+}
+
 PlacedCompliance placeOf(const std::filesystem::path& file, const NumberTable::Row& row)
 {
   const std::vector<double>& v = row.values;
@@ -292,13 +302,14 @@ OrganTable readOrganTable(const std::filesystem::path& file)
   const NumberTable numbers = NumberTable::readFinite(file, kHeader);
   OrganTable table;
   table.mesh = textOf(file, numbers, "mesh");
+  table.mesh.erase(0, table.mesh.starts_with(", ") ? 2 : 0); // as it was written first
   table.supports = textOf(file, numbers, "supports");
   if (const auto stiffness = entry(numbers.comments, "stiffness"))
   {
     table.stiffness = *stiffness;
     table.young = csvNumber(textOf(file, numbers, "young_Pa")).value_or(0.0);
   }
-  table.poisson = csvNumber(textOf(file, numbers, "poisson")).value_or(table.poisson);
+  table.poisson = poissonOf(file, numbers);
   table.cell = units::fromMillimeters(numberOf(file, numbers, "cell_mm"));
   table.spacing = units::fromMillimeters(numberOf(file, numbers, "spacing_mm"));
   constexpr double kMostPlaces = 1e6;

@@ -68,6 +68,20 @@ std::optional<OrganTable> tableIn(const std::filesystem::path& file, const Organ
   return found.continues(wanted) ? std::optional(std::move(found)) : std::nullopt;
 }
 
+// of what is written anew where it cannot be used
+std::optional<OrganTable> usableIn(const std::filesystem::path& file, const OrganTable& wanted)
+{
+  try
+  {
+    return tableIn(file, wanted);
+  }
+  catch (const Error&)
+  {
+    std::cerr << "palp: " << file.string() << ": is damaged; its places are solved for again\n";
+    return std::nullopt;
+  }
+}
+
 std::string described(const OrganTable& table)
 {
   constexpr std::array kWhy{ "", "near an edge or another tissue",
@@ -135,7 +149,8 @@ void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
   const Surface& surface = *body.haptic;
   const std::vector<SurfacePoint> places = organPlaces(surface, spacingOf(surface, plan.cell));
   const OrganTable wanted = emptyTable(plan, body, places.size());
-  if (const auto made = tableIn(plan.out, wanted); made && made->isComplete())
+  if (const auto made = plan.overwrite ? usableIn(plan.out, wanted) : tableIn(plan.out, wanted);
+      made && made->isComplete())
   {
     std::cerr << "palp: " << plan.out.string() << ": is of this body and these supports already\n";
     return;
@@ -148,7 +163,7 @@ void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
         "--overwrite, or another --out");
   }
   const std::filesystem::path begun = begunOf(plan.out);
-  OrganTable table = tableIn(begun, wanted).value_or(wanted);
+  OrganTable table = usableIn(begun, wanted).value_or(wanted);
   checkMap(body, plan);
   interrupt.endWhatDoesNotStop(table.places.empty() ? kNoPlaceYet : kStopped);
   ProgressLine progress("places");

@@ -63,7 +63,7 @@ Rule seriesRule(const SeriesBody& body, const ForceLaw& law, const SeriesContact
   const ComplianceField::Local local = body.field->at(contact.center, contact.normal);
   return { "organ", "-", std::max(local.doubtful, contact.width(body.law, local.body)), kWidest,
     "an edge, a thin place or a support is too near for the cells of the organ file or for so wide "
-    "a contact" };
+    "a contact, or the file leaves this piece out" };
 }
 
 } // namespace palp

@@ -20,7 +20,7 @@ std::filesystem::path fileOf(const std::string& name)
 OrganTable tableOf(std::size_t places)
 {
   OrganTable table;
-  table.mesh = ", SHA-256 abc, read in mm";
+  table.mesh = "SHA-256 abc, read in mm";
   table.supports = "bonded:direction:0,1,0:60deg";
   table.count = places;
   for (std::size_t i = 0; i < places; ++i)
@@ -57,7 +57,7 @@ std::string refusalOf(const std::string& text)
   std::ofstream(file) << text;
   try
   {
-    (void)readOrganOf(file, ", SHA-256 abc, read in mm");
+    (void)readOrganOf(file, "SHA-256 abc, read in mm");
   }
   catch (const Error& error)
   {
@@ -134,6 +134,14 @@ TEST(OrganTable, RefusesInOneSentence)
     refusalOf(replaced(good, "places: 3", "places: 2")).find("more places"), std::string::npos);
   EXPECT_NE(refusalOf(replaced(good, "spacing_mm: 4", "spacing_mm: x")).find("spacing_mm"),
     std::string::npos);
+  for (const char* poisson : { "0.5", "0.9", "-0.1", "nan", "soft" })
+  {
+    EXPECT_NE(refusalOf(replaced(good, "poisson: 0.45", std::string("poisson: ") + poisson))
+                .find("'# poisson:'"),
+      std::string::npos)
+      << poisson;
+  }
+  EXPECT_EQ(refusalOf(replaced(good, "mesh: ", "mesh: , ")), "") << "as of an earlier program";
   EXPECT_NE(refusalOf(replaced(good, "-12.34568", "nan")), "");
   EXPECT_NE(refusalOf(replaced(good, "0.2672612", "7")).find("unit length"), std::string::npos);
   for (std::size_t cut = 0; cut < good.size(); cut += 7)

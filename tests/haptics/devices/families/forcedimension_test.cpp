@@ -3,6 +3,7 @@
 #include "haptics/units.h"
 #include "tests/haptics/devices/families/made_up_drd.h"
 #include "tests/haptics/devices/families/one_sentence.h"
+#include "tests/haptics/felt_tissue.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -160,6 +161,7 @@ TEST_F(ForceDimension, HasTheForceAndReachThatItsMakersState)
     const DeviceLimits limits = openDriver(kName)->limits();
     EXPECT_EQ(limits.maxForce, newtons) << name;
     EXPECT_NEAR(limits.workspaceRadius, 1e-3 * millimeters, 1e-12) << name;
+    expectTissuesToBeToldApart(limits);
   }
 }
 

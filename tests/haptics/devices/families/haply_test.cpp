@@ -3,6 +3,7 @@
 #include "haptics/units.h"
 #include "tests/haptics/devices/families/haply_service.h"
 #include "tests/haptics/devices/families/one_sentence.h"
+#include "tests/haptics/felt_tissue.h"
 #include "tests/support/allocation_guard.h"
 
 #include <Eigen/Geometry>
@@ -136,6 +137,7 @@ TEST(Haply, ReachesAsFarAsItsMakersSay)
     EXPECT_EQ(limits.workspaceCenter, Vector3d::Zero());
     EXPECT_EQ(limits.maxForce, 4.0);
     EXPECT_EQ(limits.quantum, 10.0_um);
+    expectTissuesToBeToldApart(limits);
   }
 }
 
