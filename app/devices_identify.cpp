@@ -3,6 +3,7 @@
 #include "app/arms/arm_file.h"
 #include "haptics/devices/driver.h"
 #include "haptics/devices/identify/identify.h"
+#include "haptics/devices/identify/unlike_axis.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
 #include "haptics/threads/realtime.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <thread>
@@ -65,9 +67,10 @@ ArmExchange exchangeOf(Driver& driver, DriverSample& sample)
     {
       return std::nullopt;
     }
-    return ArmPosition{
-      .position = sample.position, .time = seconds(Clock::now()), .sent = seconds(sent)
-    };
+    return ArmPosition{ .position = sample.position,
+      .time = seconds(Clock::now()),
+      .sent = seconds(sent),
+      .joints = sample.joints };
   };
 }
 
@@ -99,6 +102,12 @@ void tellDoubts(const IdentifiedArm& arm)
       arm.delay > kLongest ? "a delay of 8 ms is the longest that is looked for"
                            : "one axis is more than four times as heavy as another");
   }
+  constexpr double kCoupled = 0.95; // on emulated arms below it, damping came out twice as high
+  if (std::ranges::min(arm.axes, {}, &ArmAxis::agreement).agreement < kCoupled)
+  {
+    std::printf("  Doubtful: a push along one axis moves others, too; damping may be told up to "
+                "twice as high as it is. Put a lower one into the file that is kept.\n");
+  }
 }
 
 void tell(const IdentifiedArm& arm)
@@ -106,6 +115,16 @@ void tell(const IdentifiedArm& arm)
   for (std::size_t i = 0; i < arm.axes.size(); ++i)
   {
     const auto& [mass, damping, friction, agreement] = arm.axes[i];
+    constexpr double kAside = 0.2; // below: it does not move along the push, nor against it
+    if (std::abs(agreement) < kAside)
+    {
+      std::printf(
+        "  %c: a push does not move it along this axis but aside (cosine %.2f): the encoder of "
+        "this axis may be dead, the arm held, or a motor in another's place; check the cables and "
+        "identify it again\n",
+        kAxes[i], agreement);
+      continue;
+    }
     if (agreement < IdentifiedArm::kAgrees)
     {
       std::printf(
@@ -162,6 +181,10 @@ int identifyDevice(const std::string& name, const std::string& added)
   waitForHoming(*driver, sample);
   (void)makeRealtime(pthread_self(), gettid(), false);
   IdentifiedArm arm = identifyArm(exchangeOf(*driver, sample), driver->limits().quantum);
+  if (const std::string wrong = unlikeAxis(arm); !wrong.empty())
+  {
+    throw Error(ErrorCode::NoDevice, "identify: " + wrong + "; nothing is kept");
+  }
   if (mass > 0.0 && arm.agrees())
   {
     const double scale = forceScale(*before, arm, mass);

@@ -167,8 +167,19 @@ struct Probed
   int answered = 0;
   Clock::time_point heard; ///< the last of these
   bool isGone = false;
+  double leap = 0.0; ///< farther than a hand takes an arm between two answers [m]
   DriverSample sample;
 };
+
+// 0: as fast as an arm can go; homing sets where it is
+double leapOf(const DriverSample& from, const DriverSample& to, Clock::duration passed)
+{
+  constexpr double kFastestHand = 5.0; // [m/s]
+  constexpr double kJitter = 0.002;    // [m]
+  const double went = (to.position - from.position).norm();
+  const double most = kJitter + kFastestHand * std::chrono::duration<double>(passed).count();
+  return from.homed == to.homed && went > most ? went : 0.0;
+}
 
 // exchanges of a second
 Probed exchangesOf(Driver& driver)
@@ -177,8 +188,13 @@ Probed exchangesOf(Driver& driver)
   for (const auto end = Clock::now() + 1s; Clock::now() < end && !probed.isGone;)
   {
     const auto begin = Clock::now();
+    const DriverSample before = probed.sample;
     const IoCode code = driver.tick(Eigen::Vector3d::Zero(), 0.001, probed.sample);
     const auto now = Clock::now();
+    if (code == IoCode::Ok && probed.answered > 0 && driver.limits().rendersForce)
+    {
+      probed.leap = std::max(probed.leap, leapOf(before, probed.sample, now - probed.heard));
+    }
     probed.times.push_back(std::chrono::duration<double, std::micro>(now - begin).count());
     probed.answered += code == IoCode::Ok ? 1 : 0;
     probed.heard = code == IoCode::Ok ? now : probed.heard;
@@ -207,6 +223,11 @@ std::string unusableReasonOf(const Probed& probed, const std::string& name)
   if (Clock::now() - probed.heard > kSilent)
   {
     return "fell silent after " + std::to_string(probed.answered) + " exchanges; check its power";
+  }
+  if (probed.leap > 0.0)
+  {
+    return "its position leaps by " + std::to_string(std::lround(1e3 * probed.leap)) +
+      " mm; check the encoders, their cables and the configuration";
   }
   return name.starts_with("openigtlink") && !probed.sample.homed
     ? "no tracker has sent a pose; start one that connects to this port and sends TRANSFORM or "

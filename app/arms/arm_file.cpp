@@ -1,5 +1,6 @@
 #include "app/arms/arm_file.h"
 
+#include "app/input/json_object.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/replace_file.h"
@@ -17,7 +18,7 @@ namespace palp
 namespace
 {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 constexpr std::array kAxes{ "x", "y", "z" };
 
@@ -32,6 +33,21 @@ struct Range
   double low;
   double high;
 };
+
+Json jsonIn(const std::filesystem::path& file)
+{
+  try
+  {
+    return parseJson(readText(file.string(), "the arm"), file.string());
+  }
+  catch (const Error& error)
+  {
+    throw Error(error.code(),
+      error.what() +
+        std::string("; measure the arm again with palp devices --identify, which "
+                    "tells it in JSON"));
+  }
+}
 
 double number(
   const std::filesystem::path& file, const Json& from, const char* key, const Range& range)
@@ -66,7 +82,7 @@ std::filesystem::path armFile(const std::string& identity)
 
 void saveArm(const std::filesystem::path& file, const IdentifiedArm& arm)
 {
-  Json json;
+  nlohmann::ordered_json json;
   for (std::size_t i = 0; i < arm.axes.size(); ++i)
   {
     json["axes"].push_back({ { "axis", kAxes[i] }, { "mass_kg", arm.axes[i].mass },
@@ -87,7 +103,7 @@ std::optional<IdentifiedArm> loadArm(const std::filesystem::path& file)
   {
     return std::nullopt;
   }
-  const Json json = Json::parse(readText(file.string(), "the arm"), nullptr, false);
+  const Json json = jsonIn(file);
   if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array() ||
     json["axes"].size() != kAxes.size())
   {

@@ -8,6 +8,13 @@
 namespace palp
 {
 
+/// Driven joints of an arm: where they are and what pushes them.
+struct DriverJoints
+{
+  Eigen::Vector3d angles = Eigen::Vector3d::Zero();  ///< as their encoders count [rad]
+  Eigen::Vector3d torques = Eigen::Vector3d::Zero(); ///< of what was sent [N m]
+};
+
 /// What a driver has heard, in the frame of its device.
 struct DriverSample
 {
@@ -22,6 +29,7 @@ struct DriverSample
   /// Of the force, what the motors were given after all limits of the driver [N], also where
   /// nothing came back; none: all of it.
   std::optional<Eigen::Vector3d> sent{};
+  std::optional<DriverJoints> joints{}; ///< where a driver counts them itself
 };
 
 /// What one kind of device says and hears. Waits for its bus, a few milliseconds at most, on the

@@ -99,6 +99,15 @@ TEST_F(HidRig, ProbeMeasuresTheExchange)
   EXPECT_EQ(board_->pushes, 0); // zero force only
 }
 
+// 500 of 2000 counts, 10 mm on 160 mm: 98 mrad, at a reach of 220 mm some 20 mm
+TEST_F(HidRig, ProbeFindsAnEncoderThatLeaps)
+{
+  board_->mood = Board::Mood::Leaping;
+  const Told told = tellDevices({ .probe = std::string("wooden:") + kNode });
+  EXPECT_EQ(told.code, 6);
+  EXPECT_NE(told.text.find("its position leaps by "), told.text.npos) << told.text;
+}
+
 // a machine under load may answer late: that is no loss
 TEST_F(HidRig, ClosedLoopLosesNoReply)
 {

@@ -120,6 +120,7 @@ IoCode WoodenDriver::tick(const Wrench& wrench, double dt, DriverSample& sample)
   Report command{};
   const MutableBytes payload = MutableBytes(command).first(reportSize_);
   Eigen::Vector3d sent = Eigen::Vector3d::Zero();
+  const Eigen::Matrix3d lever = positionJacobian(arm_, angles_).transpose();
   if (calibrate_)
   {
     encodeWoodenCalibration(arm_, payload);
@@ -160,7 +161,8 @@ IoCode WoodenDriver::tick(const Wrench& wrench, double dt, DriverSample& sample)
       .buttons = button_ ? 1U : 0U,
       .homed = homed_,
       .heat = heat_.fraction(),
-      .sent = sent };
+      .sent = sent,
+      .joints = DriverJoints{ angles_, lever * sent } };
   }
   return code;
 }

@@ -1,8 +1,10 @@
 #include "haptics/devices/identify/identify.h"
 
+#include "haptics/devices/identify/joint_watch.h"
 #include "haptics/devices/identify/swing.h"
 #include "haptics/error.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,13 +45,30 @@ public:
     const double size = force.norm();
     const auto answer =
       exchange_(size > kMostForce ? Vector3d(force * (kMostForce / size)) : force);
-    if (const std::string fault = faultOf(answer); !fault.empty())
+    stopAt(faultOf(answer));
+    stopAt(joints_.take(answer->joints, answer->time));
+    heard_ = answer;
+    return *answer;
+  }
+
+  void stopAt(const std::string& fault)
+  {
+    if (!fault.empty())
     {
       (void)exchange_(Vector3d::Zero());
       refuse(fault);
     }
-    heard_ = answer;
-    return *answer;
+  }
+
+  // once it was pushed along all axes; motors of the wrong sign leave no direction unmoved
+  void checkThatAllMoves()
+  {
+    constexpr double kFlat = 0.12; // steps of encoders and a bent path stay below
+    stopAt(joints_.neverCounted());
+    stopAt(std::abs(motions_.determinant()) < kFlat
+        ? "pushes along x, y and z move the arm within one plane; an encoder or its cable may be "
+          "dead, or a hand holds the arm"
+        : "");
   }
 
   void checkThatItRests()
@@ -70,24 +89,28 @@ public:
   // it
   [[nodiscard]] double agreement(int axis, double& breakaway)
   {
-    constexpr double kLongest = 0.7; // [s], of which 0.2 with the largest force
+    constexpr double kLongest = 0.7;  // [s], of which 0.2 with the largest force
+    constexpr double kUnmoved = 0.55; // where it does not begin to: it may move unseen [s]
     const double enough = std::max(0.001, 8.0 * step_);
     const ArmPosition from = send(Vector3d::Zero());
     double passed = 0.0;
     std::vector<double> pushes;
     Vector3d moved = Vector3d::Zero();
     double start = 0.0;
-    for (double force = 0.0; moved.norm() < enough && passed < kLongest;)
+    double longest = kUnmoved;
+    for (double force = 0.0; moved.norm() < enough && passed < longest;)
     {
       pushes.push_back(force);
       const ArmPosition now = send(force * Vector3d::Unit(axis));
       moved = now.position - from.position;
-      start = moved.norm() < std::max(2.5 * step_, 0.1e-3) ? force : start;
+      const bool begins = moved.norm() >= std::max(2.5 * step_, 0.1e-3);
+      start = begins ? start : force;
+      longest = begins ? kLongest : longest;
       passed = now.time - from.time;
       force = std::min(kMostForce, kRamp * passed);
     }
     const bool follows = moved.norm() >= enough;
-    const double agreed = moved[axis] / std::max(moved.norm(), 1e-12);
+    const Vector3d direction = moved / std::max(moved.norm(), 1e-12);
     double furthest = moved.norm();
     std::ranges::reverse(pushes);
     for (const double force : pushes)
@@ -104,10 +127,11 @@ public:
     {
       refuse(std::string("0.3 N do not move the arm along ") +
         kNames[static_cast<std::size_t>(axis)] +
-        "; it is held, has more friction than that, or its motors are off");
+        "; it is held, has more friction than that, its motors are off, or its encoder is dead");
     }
     breakaway = start;
-    return agreed;
+    motions_.col(axis) = direction;
+    return direction[axis];
   }
 
   // without force, until it does or a second has passed
@@ -256,6 +280,8 @@ private:
   const ArmExchange& exchange_;
   double step_;
   std::optional<ArmPosition> heard_; // the last that was taken
+  JointWatch joints_;
+  Eigen::Matrix3d motions_ = Eigen::Matrix3d::Identity(); // unit, of a push along each axis
   ArmPosition begin_;
   Vector3d center_ = Vector3d::Zero();
   ArmPosition last_;
@@ -285,6 +311,7 @@ IdentifiedArm identifyArm(const ArmExchange& exchange, double step)
     arm.axes[i].agreement = pusher.agreement(axis, breakaway[i]);
   }
   (void)pusher.send(Vector3d::Zero());
+  pusher.checkThatAllMoves();
   if (!arm.agrees())
   {
     return arm;
@@ -314,21 +341,6 @@ IdentifiedArm identifyArm(const ArmExchange& exchange, double step)
     arm.axes[i].friction = model.friction;
   }
   return arm;
-}
-
-double forceScale(const IdentifiedArm& without, const IdentifiedArm& with, double added)
-{
-  std::array<double, 3> more{};
-  for (std::size_t i = 0; i < more.size(); ++i)
-  {
-    more[i] = with.axes[i].mass - without.axes[i].mass;
-    if (!(more[i] > 0.15 * without.axes[i].mass))
-    {
-      throw Error(ErrorCode::BadValue,
-        "identify: the arm is not noticeably heavier with the added mass; fix a larger one to it");
-    }
-  }
-  return added / median(more);
 }
 
 } // namespace palp

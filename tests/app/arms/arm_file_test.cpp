@@ -82,5 +82,22 @@ TEST_F(ArmFile, SaysOfADamagedOneWhatIsWrong)
   EXPECT_NE(messageWith("0.6", "\"0.6\"").find("scale is missing or no number"), std::string::npos);
 }
 
+TEST_F(ArmFile, RefusesAKeyThatStandsTwice)
+{
+  std::string text = textOf(file_);
+  text.insert(text.find('{') + 1, "\"scale\": 1.0,");
+  std::ofstream(file_) << text;
+  try
+  {
+    (void)loadArm(file_);
+    FAIL() << "taken";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("'scale' stands twice"), std::string::npos)
+      << error.what();
+  }
+}
+
 } // namespace
 } // namespace palp

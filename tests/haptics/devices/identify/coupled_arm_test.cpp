@@ -1,0 +1,119 @@
+// An arm whose axes are coupled by its three bodies: an encoder that dies is one of three.
+
+#include "haptics/devices/identify/unlike_axis.h"
+#include "haptics/error.h"
+#include "tests/haptics/devices/identify/coupled_arm.h"
+
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+std::string refusalOf(test::CoupledArm& arm)
+{
+  try
+  {
+    (void)arm.identify();
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(IdentifyCoupled, ADeadEncoderEndsThePushBeforeTheArmGoesFar)
+{
+  for (const double friction : { 1e-3, 5e-3 })
+  {
+    for (const int dead : { 0, 1, 2 })
+    {
+      for (const double dies : { 1.6, 3.0, 5.0, 9.0, 14.0, 22.0 })
+      {
+        test::CoupledArm arm;
+        arm.friction.setConstant(friction);
+        arm.dead = dead;
+        arm.dies = dies;
+        const std::string what = refusalOf(arm);
+        EXPECT_NE(what.find("encoder"), std::string::npos)
+          << dead << " at " << dies << ": " << what;
+        EXPECT_LE(arm.unseen, 0.1) << dead << " at " << dies;
+        EXPECT_EQ(arm.told.norm(), 0.0);
+      }
+    }
+  }
+}
+
+TEST(IdentifyCoupled, AnEncoderThatNeverCountsIsNamed)
+{
+  for (const int dead : { 0, 1, 2 })
+  {
+    test::CoupledArm arm;
+    arm.dead = dead;
+    EXPECT_NE(refusalOf(arm).find("encoder"), std::string::npos) << dead;
+    EXPECT_LE(arm.unseen, 0.12);
+  }
+}
+
+TEST(IdentifyCoupled, WithoutJointsADeadEncoderLeavesMotionInOnePlane)
+{
+  for (const int dead : { 1, 2 })
+  {
+    test::CoupledArm arm;
+    arm.dead = dead;
+    const auto exchange = [&arm](const Eigen::Vector3d& force) -> std::optional<ArmPosition>
+    {
+      ArmPosition now = arm.exchange(force);
+      now.joints.reset();
+      return now;
+    };
+    try
+    {
+      (void)identifyArm(exchange, 54e-6);
+      ADD_FAILURE() << "measured";
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("one plane"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(IdentifyCoupled, ASoundArmIsMeasured)
+{
+  for (const char* name : { "v2015", "polhem", "aluhaptics" })
+  {
+    for (const double friction : { 1e-3, 4e-3, 8e-3 })
+    {
+      for (const double damping : { 0.004, 0.012 })
+      {
+        test::CoupledArm arm(*publishedArm(name));
+        arm.friction.setConstant(friction);
+        arm.damping.setConstant(damping);
+        const IdentifiedArm found = arm.identify();
+        EXPECT_TRUE(found.agrees()) << name;
+        EXPECT_EQ(unlikeAxis(found), "") << name;
+        EXPECT_NEAR(found.axes[1].mass, arm.mass()(1, 1), 0.15 * arm.mass()(1, 1)) << name;
+      }
+    }
+  }
+}
+
+TEST(IdentifyCoupled, AnAxisThatNoArmHasIsNamed)
+{
+  IdentifiedArm arm;
+  arm.axes = { ArmAxis{ 0.2, 0.3, 0.04, 1.0 }, ArmAxis{ 0.02, 0.03, 0.04, 1.0 },
+    ArmAxis{ 0.25, 0.3, 0.04, 1.0 } };
+  EXPECT_NE(
+    unlikeAxis(arm).find("along y the arm is more than six times as light"), std::string::npos);
+  arm.axes[1].mass = 2.2;
+  EXPECT_NE(
+    unlikeAxis(arm).find("along y the arm is more than six times as heavy"), std::string::npos);
+  arm.axes[1].mass = 0.05;
+  EXPECT_EQ(unlikeAxis(arm), "");
+}
+
+} // namespace
+} // namespace palp
