@@ -102,12 +102,6 @@ void tellDoubts(const IdentifiedArm& arm)
       arm.delay > kLongest ? "a delay of 8 ms is the longest that is looked for"
                            : "one axis is more than four times as heavy as another");
   }
-  constexpr double kCoupled = 0.95; // on emulated arms below it, damping came out twice as high
-  if (std::ranges::min(arm.axes, {}, &ArmAxis::agreement).agreement < kCoupled)
-  {
-    std::printf("  Doubtful: a push along one axis moves others, too; damping may be told up to "
-                "twice as high as it is. Put a lower one into the file that is kept.\n");
-  }
 }
 
 void tell(const IdentifiedArm& arm)

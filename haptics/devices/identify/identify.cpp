@@ -256,7 +256,7 @@ private:
       record.sent.push_back(last_.sent);
       record.time.push_back(last_.time);
       record.position.push_back(last_.position[axis]);
-      record.force.push_back(told[axis]);
+      record.force.push_back({ told[axis], told[(axis + 1) % 3], told[(axis + 2) % 3] });
     }
     return record;
   }

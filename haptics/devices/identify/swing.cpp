@@ -18,9 +18,11 @@ constexpr int kLook = 20;         // grid points on either side that tell a dire
 
 struct Even
 {
-  std::vector<double> position; // [m]
-  std::vector<double> force;    // [N]
+  std::vector<double> position;             // [m]
+  std::vector<std::array<double, 3>> force; // [N]
 };
+
+using Forces = Eigen::Matrix<double, kDelays, 3>; // a row for each delay
 
 // positions between exchanges lie on a line, forces are held
 Even onGrid(const Swing& swing)
@@ -62,7 +64,7 @@ std::vector<int> directions(const Even& even, double step)
 struct Windows
 {
   std::vector<Eigen::Vector4d> rows; // of mass, damping, friction, load
-  std::vector<Eigen::Matrix<double, kDelays, 1>> forces;
+  std::vector<Forces> forces;
 };
 
 // lengths of the motions in one direction, in grid points
@@ -100,7 +102,7 @@ void addWindow(Windows& windows, const Even& even, std::size_t from, std::size_t
   const double duration = kGrid * static_cast<double>(length);
   const double middle = even.position[from + length / 2]; // near zero, for the sake of rounding
   Eigen::Vector4d row = Eigen::Vector4d::Zero();
-  Eigen::Matrix<double, kDelays, 1> forces = Eigen::Matrix<double, kDelays, 1>::Zero();
+  Forces forces = Forces::Zero();
   for (std::size_t i = 0; i <= length; ++i)
   {
     const double angle = 2.0 * pi * static_cast<double>(i) / static_cast<double>(length);
@@ -111,7 +113,8 @@ void addWindow(Windows& windows, const Even& even, std::size_t from, std::size_t
     row += Eigen::Vector4d(bend * x, -slope * x, way * weight, weight);
     for (int d = 0; d < kDelays; ++d)
     {
-      forces[d] += weight * even.force[from + i - static_cast<std::size_t>(d)];
+      forces.row(d) +=
+        weight * Eigen::RowVector3d::Map(even.force[from + i - static_cast<std::size_t>(d)].data());
     }
   }
   windows.rows.emplace_back(row / duration);
@@ -138,24 +141,22 @@ void addWindows(
 SwingModel solve(const Windows& windows, std::optional<double> delay)
 {
   const auto count = static_cast<Eigen::Index>(windows.rows.size());
-  Eigen::MatrixX4d rows(count, 4);
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    rows.row(i) = windows.rows[static_cast<std::size_t>(i)].transpose();
-  }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixX4d> factors(rows);
   SwingModel best;
   best.residual = HUGE_VAL;
   const int first =
     delay ? std::clamp(static_cast<int>(std::lround(*delay / kGrid)), 0, kDelays - 1) : 0;
   for (int d = first; d < (delay ? first + 1 : kDelays); ++d)
   {
+    Eigen::Matrix<double, Eigen::Dynamic, 6> rows(count, 6);
     Eigen::VectorXd forces(count);
     for (Eigen::Index i = 0; i < count; ++i)
     {
-      forces[i] = windows.forces[static_cast<std::size_t>(i)][d];
+      const auto at = static_cast<std::size_t>(i);
+      const Eigen::RowVector3d told = windows.forces[at].row(d);
+      rows.row(i) << windows.rows[at].transpose(), -told.tail<2>();
+      forces[i] = told[0];
     }
-    const Eigen::Vector4d found = factors.solve(forces);
+    const Eigen::Vector<double, 6> found = rows.colPivHouseholderQr().solve(forces);
     const double residual = (rows * found - forces).norm() / std::max(forces.norm(), 1e-12);
     if (residual < best.residual)
     {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,8 +11,9 @@ namespace palp
 /// What was told to an arm along one axis and where it was, exchange by exchange.
 struct Swing
 {
-  std::vector<double> sent;     ///< when each force went out, ascending [s]
-  std::vector<double> force;    ///< held until the next [N]
+  std::vector<double> sent; ///< when each force went out, ascending [s]
+  std::vector<std::array<double, 3>>
+    force;                      ///< along the axis, then the others; held until the next [N]
   std::vector<double> time;     ///< of the position that came back, ascending [s]
   std::vector<double> position; ///< [m]
 };
@@ -27,7 +29,9 @@ struct SwingModel
   double residual = 0.0; ///< of the forces, root mean square over their own
 };
 
-/// Fits m x'' + b x' + f sign(x') + c = F(t - d) to swings of one axis.
+/// Fits m x'' + b x' + f sign(x') + c = (F + p G + q H)(t - d) to swings of one axis, with G and H
+/// along the others: of an arm whose axes are coupled they move this one, too, and what holds them
+/// in the middle would be taken for damping.
 ///
 /// In its weak form: multiplied by sin^2 over windows in which the motion keeps its direction, and
 /// integrated by parts, so that no position is differentiated; linear in all but the delay, which

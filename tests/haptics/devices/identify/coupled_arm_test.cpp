@@ -87,7 +87,7 @@ TEST(IdentifyCoupled, ASoundArmIsMeasured)
   {
     for (const double friction : { 1e-3, 4e-3, 8e-3 })
     {
-      for (const double damping : { 0.004, 0.012 })
+      for (const double damping : { 0.004, 0.012, 0.03 })
       {
         test::CoupledArm arm(*publishedArm(name));
         arm.friction.setConstant(friction);
@@ -95,7 +95,17 @@ TEST(IdentifyCoupled, ASoundArmIsMeasured)
         const IdentifiedArm found = arm.identify();
         EXPECT_TRUE(found.agrees()) << name;
         EXPECT_EQ(unlikeAxis(found), "") << name;
-        EXPECT_NEAR(found.axes[1].mass, arm.mass()(1, 1), 0.15 * arm.mass()(1, 1)) << name;
+        // of a push along one axis that leaves the others free; half of what is let pass comes of
+        // the arm's shape, which changes over a swing of 10 mm
+        const Eigen::Vector3d mass = arm.mass().inverse().diagonal().cwiseInverse();
+        const Eigen::Vector3d viscous = arm.dampingOfHandle().inverse().diagonal().cwiseInverse();
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const ArmAxis& one = found.axes[static_cast<std::size_t>(axis)];
+          EXPECT_NEAR(one.mass, mass[axis], 0.10 * mass[axis]) << name << axis;
+          EXPECT_NEAR(one.damping, viscous[axis], std::max(0.22 * viscous[axis], 0.02))
+            << name << axis;
+        }
       }
     }
   }
