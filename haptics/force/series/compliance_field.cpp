@@ -103,14 +103,16 @@ ComplianceField::Range ComplianceField::near(const Eigen::Vector3d& place) const
 // each cell knows every place that reaches into it, so that a contact looks at one cell only
 void ComplianceField::sortIntoCells()
 {
-  const auto forReached = [this](const auto& visit)
+  std::vector<std::pair<Range*, std::uint32_t>> reached;
+  for (std::uint32_t i = 0; i < places_.size(); ++i)
   {
-    for (std::uint32_t i = 0; i < places_.size(); ++i)
-    {
-      forCellsWithin(places_[i].position.cast<double>(), [&](Range& cell) { visit(cell, i); });
-    }
-  };
-  forReached([](Range& cell, std::uint32_t) { ++cell.last; });
+    forCellsWithin(places_[i].position.cast<double>(),
+      [&](Range& cell)
+      {
+        ++cell.last;
+        reached.emplace_back(&cell, i);
+      });
+  }
   std::uint32_t count = 0;
   for (auto& [key, cell] : cells_)
   {
@@ -118,7 +120,10 @@ void ComplianceField::sortIntoCells()
     cell = { first, first };
   }
   near_.resize(count);
-  forReached([this](Range& cell, std::uint32_t i) { near_[cell.last++] = i; });
+  for (const auto& [cell, i] : reached)
+  {
+    near_[cell->last++] = i;
+  }
 }
 
 template <typename Visit>
@@ -134,7 +139,7 @@ void ComplianceField::forCellsWithin(const Eigen::Vector3d& position, const Visi
     const Eigen::Vector3d low = cell_ * Eigen::Vector3d(cell[0], cell[1], cell[2]);
     const Eigen::Vector3d nearest =
       position.cwiseMax(low).cwiseMin(low + Eigen::Vector3d::Constant(cell_));
-    if ((nearest - position).norm() < reach_)
+    if ((nearest - position).squaredNorm() < reach_ * reach_)
     {
       visit(cells_[keyOf(cell)]);
     }
