@@ -1,5 +1,6 @@
 #pragma once
 
+#include "haptics/files/descriptor.h"
 #include "tests/support/process.h"
 
 #include <chrono>
@@ -10,6 +11,8 @@
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <string>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -46,7 +49,11 @@ public:
       << "<allow send_destination=\"*\"/><allow receive_sender=\"*\"/></policy></busconfig>";
     start({ "/usr/bin/dbus-daemon", "--nofork", "--nopidfile",
       "--config-file=" + (folder() / "bus.conf").string() });
-    await(socket());
+    for (int i = 0; i < kAttempts && !answers(); ++i)
+    {
+      std::this_thread::sleep_for(kPause);
+    }
+    ASSERT_TRUE(answers()) << "its socket is there before it listens";
   }
 
   /// @param words  program and arguments; empty ones are left out
@@ -66,9 +73,9 @@ public:
 
   static void await(const std::filesystem::path& file)
   {
-    for (int i = 0; i < 1000 && !std::filesystem::exists(file); ++i)
+    for (int i = 0; i < kAttempts && !std::filesystem::exists(file); ++i)
     {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      std::this_thread::sleep_for(kPause);
     }
     ASSERT_TRUE(std::filesystem::exists(file));
   }
@@ -79,6 +86,17 @@ public:
   }
 
 private:
+  static constexpr int kAttempts = 1000;
+  static constexpr std::chrono::milliseconds kPause{ 10 };
+
+  [[nodiscard]] bool answers() const
+  {
+    sockaddr_un address{ .sun_family = AF_UNIX, .sun_path = {} };
+    socket().copy(address.sun_path, sizeof(address.sun_path) - 1);
+    const Descriptor peer(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    return connect(peer.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  }
+
   [[nodiscard]] std::string socket() const
   {
     return folder() / "bus";

@@ -79,15 +79,16 @@ void readKeys(std::string_view text, std::span<Key> keys, const std::string& nam
     {
       continue;
     }
+    constexpr std::size_t kShown = 40; // of what may be a file of another kind
+    const std::string shown(word.substr(0, kShown));
+    if (equals == row.size() || !nextWord(front).empty())
+    {
+      refuse(line, "no = after " + shown + "; write as in: length = 0.080 0.205 0.245");
+    }
     const auto key = std::ranges::find(keys, word, &Key::name);
     if (key == keys.end())
     {
-      refuse(line,
-        "unknown key '" + std::string(word) + "'; expected one of " + listed(keys, &Key::name));
-    }
-    if (equals == row.size() || !nextWord(front).empty())
-    {
-      refuse(line, "no = after " + std::string(word) + "; write as in: length = 0.080 0.205 0.245");
+      refuse(line, "unknown key '" + shown + "'; expected one of " + listed(keys, &Key::name));
     }
     row.remove_prefix(equals + 1);
     if (std::exchange(key->given, true))

@@ -120,7 +120,8 @@ const char* wrongIn(const Sample& sample, const Scene& scene)
   if (isShallow(sample, scene) && response.force > 1e-6)
   {
     const bool isGiven = scene.series != nullptr; // by tables that are none of a body
-    return sample.contact.slope > 5.0                             ? "a slope of rounding"
+    constexpr double kSteepest = 6.0; // 2 as a height may change, and 4 as a far wall may come in
+    return sample.contact.slope > kSteepest                       ? "a slope of rounding"
       : !isGiven && sample.lateral.norm() > 10.0 * response.force ? "a tool thrown aside"
                                                                   : wrongIn(sample.contact);
   }
