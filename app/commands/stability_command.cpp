@@ -54,20 +54,16 @@ void addStabilityCommand(CLI::App& app)
     ->required();
   addOverwrite(*command, options->overwrite);
   command->add_flag("--quick", options->quick, "A tenth of the cases: seconds, not minutes");
-  command->footer("unstable, where a row has no mass_kg: the loop gave energy to the hand "
-                  "(energy_uJ below -1), or\n"
-                  "the hand did not come to rest (late speed above a tenth of the early one), or "
-                  "it went on in a\n"
-                  "limit cycle at an encoder of 48 um (limit_cycle_speed_m_per_s above 0.025). Of "
-                  "an arm (mass_kg):\n"
-                  "it went on above 0.025 m/s, dying at less than a fifth of the rate of its own "
-                  "damping and the\n"
-                  "hand's, or it gave more than 5 mJ, or 50 mJ where less delay is told than it "
-                  "has. refused: no\n"
-                  "force was given, or a fault ended it. limited_by\n"
-                  "names the stages of the chain that acted.\n"
-                  "Example:\n"
-                  "  palp stability --out out --quick");
+  command->footer(
+    "unstable, where a row has no mass_kg: the loop gave energy to the hand (energy_uJ below -1),\n"
+    "or the hand did not come to rest (late speed above a tenth of the early one), or it went on\n"
+    "in a limit cycle at an encoder of 48 um (limit_cycle_speed_m_per_s above 0.025). Of an arm\n"
+    "(mass_kg): it went on above 0.025 m/s, dying at less than a fifth of the rate of its own\n"
+    "damping and the hand's, or it gave more than 5 mJ, or 50 mJ where less delay is told than it\n"
+    "has. refused: no force was given, or a fault ended it. limited_by names the stages of the\n"
+    "chain that acted.\n"
+    "Example:\n"
+    "  palp stability --out out --quick");
   command->callback([options] { studyStability(*options); });
 }
 

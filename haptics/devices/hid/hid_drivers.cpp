@@ -120,7 +120,7 @@ IoCode WoodenDriver::tick(const Wrench& wrench, double dt, DriverSample& sample)
   Report command{};
   const MutableBytes payload = MutableBytes(command).first(reportSize_);
   Eigen::Vector3d sent = Eigen::Vector3d::Zero();
-  const Eigen::Matrix3d lever = positionJacobian(arm_, angles_).transpose();
+  Eigen::Vector3d torques = Eigen::Vector3d::Zero();
   if (calibrate_)
   {
     encodeWoodenCalibration(arm_, payload);
@@ -131,8 +131,11 @@ IoCode WoodenDriver::tick(const Wrench& wrench, double dt, DriverSample& sample)
   {
     auto motors = homed_ ? motorCurrents(arm_, angles_, wrench.force) : MotorCurrents{};
     const double share = motors.share * heat_.take(motors.currents, dt);
-    sent =
-      share > 0.0 ? Eigen::Vector3d(share * wrench.force) : sent; // its share of NaN is none, too
+    if (share > 0.0) // its share of NaN is none, too
+    {
+      sent = share * wrench.force;
+      torques = share * motors.torques;
+    }
     encodeWooden(motors.currents, payload);
   }
   sample.sent = sent;
@@ -162,7 +165,7 @@ IoCode WoodenDriver::tick(const Wrench& wrench, double dt, DriverSample& sample)
       .homed = homed_,
       .heat = heat_.fraction(),
       .sent = sent,
-      .joints = DriverJoints{ angles_, lever * sent } };
+      .joints = DriverJoints{ angles_, torques } };
   }
   return code;
 }

@@ -281,8 +281,9 @@ Eigen::Matrix3d positionJacobian(const WoodenArm& arm, const Eigen::Vector3d& an
 MotorCurrents motorCurrents(
   const WoodenArm& arm, const Eigen::Vector3d& angles, const Eigen::Vector3d& force) noexcept
 {
-  const Eigen::Vector3d torques = positionJacobian(arm, angles).transpose() * force;
   MotorCurrents motors;
+  motors.torques = positionJacobian(arm, angles).transpose() * force;
+  const Eigen::Vector3d& torques = motors.torques;
   double largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i)
   {

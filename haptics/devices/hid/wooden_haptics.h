@@ -90,8 +90,9 @@ void encodeWoodenCalibration(const WoodenArm& arm, MutableBytes report) noexcept
 /// What three motors are given.
 struct MotorCurrents
 {
-  std::array<double, 3> currents{}; ///< [A], finite
-  double share = 0.0;               ///< of the force that was asked for, 0 to 1
+  std::array<double, 3> currents{};                  ///< [A], finite
+  double share = 0.0;                                ///< of the force that was asked for, 0 to 1
+  Eigen::Vector3d torques = Eigen::Vector3d::Zero(); ///< about the joints, of all of it [N m]
 };
 
 /// Currents that push the hand with a force, all shortened alike where one exceeds its largest.

@@ -232,8 +232,7 @@ private:
       }
       if (last_.time - moved.time > kStands)
       {
-        (void)exchange_(Vector3d::Zero());
-        refuse(std::string("the arm stands still along ") + kNames[static_cast<std::size_t>(axis)] +
+        stopAt(std::string("the arm stands still along ") + kNames[static_cast<std::size_t>(axis)] +
           " though it is pushed by more than moved it before; an encoder hangs, or a hand holds "
           "it");
       }
