@@ -33,7 +33,7 @@ SplineBasis splineBasis(const SplineAxis& axis, double at) noexcept
   const double last = axis.intervals;
   const double toSlope = last / (axis.last - axis.first);
   const double along = std::clamp((at - axis.first) * toSlope, 0.0, last);
-  const double low = std::min(std::floor(along), last - 1.0);
+  const double low = std::min(static_cast<double>(static_cast<int>(along)), last - 1.0);
   const double t = along - low;
   const double s = 1.0 - t;
   const double toBend = toSlope * toSlope;
@@ -74,16 +74,17 @@ std::vector<double> splineCoefficients(std::span<const double> values)
 }
 
 CubicSpline::CubicSpline(const SplineAxis& axis, std::span<const double> values)
-  : axis_(axis)
-  , coefficients_(splineCoefficients(values))
+  : first_(axis.first)
+  , last_(axis.intervals)
+  , perStep_(1.0 / axis.step())
 {
-}
-
-CubicSpline::Value CubicSpline::operator()(double at) const noexcept
-{
-  const SplineBasis basis = splineBasis(axis_, at);
-  const double* c = coefficients_.data() + basis.low;
-  return { sum(c, basis.value), sum(c, basis.slope), sum(c, basis.bend) };
+  const std::vector<double> c = splineCoefficients(values);
+  for (std::size_t i = 0; i + 3 < c.size(); ++i)
+  {
+    pieces_.push_back({ (c[i] + 4.0 * c[i + 1] + c[i + 2]) / 6.0, 0.5 * (c[i + 2] - c[i]),
+      0.5 * (c[i] - 2.0 * c[i + 1] + c[i + 2]),
+      (c[i + 3] - 3.0 * c[i + 2] + 3.0 * c[i + 1] - c[i]) / 6.0 });
+  }
 }
 
 BicubicSpline::BicubicSpline(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -60,11 +61,21 @@ public:
 
   /// @param at   beyond the axis, its border
   /// @realtime   pure; no allocation, no lock, no exception
-  [[nodiscard]] Value operator()(double at) const noexcept;
+  [[nodiscard]] Value operator()(double at) const noexcept
+  {
+    const double along = std::clamp((at - first_) * perStep_, 0.0, last_);
+    const auto piece = static_cast<std::size_t>(std::min(along, last_ - 1.0));
+    const double t = along - static_cast<double>(piece);
+    const auto& [a, b, c, d] = pieces_[piece];
+    return { a + t * (b + t * (c + t * d)), (b + t * (2.0 * c + t * 3.0 * d)) * perStep_,
+      (2.0 * c + 6.0 * t * d) * (perStep_ * perStep_) };
+  }
 
 private:
-  SplineAxis axis_;
-  std::vector<double> coefficients_;
+  double first_;
+  double last_; // in steps, as many as there are
+  double perStep_;
+  std::vector<std::array<double, 4>> pieces_; // as powers of what is past a step, in steps
 };
 
 /// Twice continuously differentiable surface through values on a grid of equal steps.

@@ -83,6 +83,16 @@ SeriesResponse TissueAt::find(double depth) const noexcept
     : SeriesResponse{ local(depth), depth, false };
 }
 
+const SeriesLaw::Loaded& TissueAt::load(double force) const noexcept
+{
+  if (force != loadedForce_)
+  {
+    loadedForce_ = force;
+    loaded_ = scene_->series->law.load(body_->here, force);
+  }
+  return loaded_;
+}
+
 // in series: of the contact by itself, and of the body by its complementary energy
 double TissueAt::energy(double depth) const noexcept
 {
@@ -93,21 +103,31 @@ double TissueAt::energy(double depth) const noexcept
   }
   const double force = at.felt.force;
   return energyTo([this](double deep) noexcept { return local(deep); }, at.local) +
-    force * (depth - at.local) - scene_->series->law.energy(body_->here, force);
+    force * (depth - at.local) - scene_->series->law.energy(body_->here, load(force));
+}
+
+// of how the shape below changes aside
+Eigen::Vector3d TissueAt::lateralOfShape(const SeriesResponse& answer) const noexcept
+{
+  // beside a thin rim, where one side's normal cancels the other's, slopes are without end
+  constexpr double kMost = 3.0; // of the force
+  const double most = kMost * answer.felt.force;
+  if (scene_->law.settings().mode != LawMode::Corrected || !(most > 0.0))
+  {
+    return Eigen::Vector3d::Zero();
+  }
+  ContactGeometry geometry = geometry_;
+  geometry.depth = answer.local;
+  const EnergySlopes slopes = energySlopes(scene_->law, geometry);
+  const Eigen::Vector3d force =
+    -(slopes.curvature * contact_->curvatureSlope + slopes.spread * contact_->spreadSlope +
+      slopes.thickness * contact_->thicknessSlope + slopes.tilt * contact_->tiltSlope);
+  return force / std::sqrt(std::hypot(1.0, force.squaredNorm() / (most * most)));
 }
 
 Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
 {
-  ContactGeometry geometry = geometry_;
-  geometry.depth = answer.local;
-  const EnergySlopes slopes = energySlopes(scene_->law, geometry);
-  Eigen::Vector3d force =
-    -(slopes.curvature * contact_->curvatureSlope + slopes.spread * contact_->spreadSlope +
-      slopes.thickness * contact_->thicknessSlope + slopes.tilt * contact_->tiltSlope);
-  // beside a thin rim, where one side's normal cancels the other's, slopes are without end
-  constexpr double kMost = 3.0; // of the force
-  const double most = kMost * answer.felt.force;
-  force *= most > 0.0 ? 1.0 / std::sqrt(std::hypot(1.0, force.squaredNorm() / (most * most))) : 0.0;
+  Eigen::Vector3d force = lateralOfShape(answer);
   if (stiffness_)
   {
     force = stiffness_->lateral(plain(answer.local), force, answer.local);
@@ -118,7 +138,7 @@ Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
   }
   if (body_)
   {
-    const Eigen::Vector3d more = scene_->series->lateral(*body_, answer.felt.force);
+    const Eigen::Vector3d more = scene_->series->lateral(*body_, load(answer.felt.force));
     // no round tool without friction is pushed more sideways than up; values that leap between
     // places, as over a thin rim beside a support, would say so
     force += std::min(1.0, answer.felt.force / more.norm()) * more;

@@ -48,6 +48,8 @@ private:
   [[nodiscard]] Response plain(double depth) const noexcept;
   [[nodiscard]] Response local(double depth) const noexcept;
   [[nodiscard]] SeriesResponse find(double depth) const noexcept;
+  [[nodiscard]] Eigen::Vector3d lateralOfShape(const SeriesResponse& answer) const noexcept;
+  [[nodiscard]] const SeriesLaw::Loaded& load(double force) const noexcept; // of the body
 
   const Scene* scene_;
   const Contact* contact_;
@@ -57,7 +59,9 @@ private:
   std::optional<SeriesBody::Below> body_;
   Response plain_{}; // of the law alone, at the depth of the contact
   mutable double askedDepth_;
-  mutable SeriesResponse asked_{}; // there, of all of it
+  mutable SeriesResponse asked_{};   // there, of all of it
+  mutable double loadedForce_ = 0.0; // that the body was last asked for [N]
+  mutable SeriesLaw::Loaded loaded_{};
 };
 
 } // namespace palp

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace palp
 {
@@ -18,18 +17,16 @@ constexpr double kOver = 0.25;  // spacings over the faces, from which on a spot
 constexpr float kFacing = 0.7F; // cosine of normals from which on a place counts in full
 constexpr float kAskew = 0.1F;  // likewise, to which it is beyond an edge and does not count
 
-std::uint64_t keyOf(const std::array<int, 3>& cell)
-{
-  constexpr std::uint64_t mask = (1U << 21U) - 1U;
-  const auto part = [&](std::size_t i) { return static_cast<std::uint64_t>(cell[i]) & mask; };
-  return part(0) << 42U | part(1) << 21U | part(2);
-}
-
 // of columns
 template <typename Points>
-auto lengthsOf(const Points& points) noexcept
+[[gnu::always_inline]] inline auto lengthsOf(const Points& points) noexcept
 {
-  return points.square().colwise().sum().sqrt().eval();
+  auto lengths = points.square().colwise().sum().eval();
+  for (float& length : lengths) // in a single instruction
+  {
+    length = std::sqrt(length);
+  }
+  return lengths;
 }
 
 // each column's part along one
@@ -87,65 +84,6 @@ ComplianceField::ComplianceField(std::span<const PlacedCompliance> places, doubl
   sharpen();
 }
 
-ComplianceField::Cell ComplianceField::cellOf(const Eigen::Vector3d& place) const noexcept
-{
-  return { static_cast<int>(std::floor(place.x() / cell_)),
-    static_cast<int>(std::floor(place.y() / cell_)),
-    static_cast<int>(std::floor(place.z() / cell_)) };
-}
-
-ComplianceField::Range ComplianceField::near(const Eigen::Vector3d& place) const noexcept
-{
-  const auto found = cells_.find(keyOf(cellOf(place)));
-  return found != cells_.end() ? found->second : Range{};
-}
-
-// each cell knows every place that reaches into it, so that a contact looks at one cell only
-void ComplianceField::sortIntoCells()
-{
-  std::vector<std::pair<Range*, std::uint32_t>> reached;
-  for (std::uint32_t i = 0; i < places_.size(); ++i)
-  {
-    forCellsWithin(places_[i].position.cast<double>(),
-      [&](Range& cell)
-      {
-        ++cell.last;
-        reached.emplace_back(&cell, i);
-      });
-  }
-  std::uint32_t count = 0;
-  for (auto& [key, cell] : cells_)
-  {
-    const std::uint32_t first = std::exchange(count, count + cell.last);
-    cell = { first, first };
-  }
-  near_.resize(count);
-  for (const auto& [cell, i] : reached)
-  {
-    near_[cell->last++] = i;
-  }
-}
-
-template <typename Visit>
-void ComplianceField::forCellsWithin(const Eigen::Vector3d& position, const Visit& visit)
-{
-  const int around = static_cast<int>(std::ceil(reach_ / cell_));
-  const Cell middle = cellOf(position);
-  const int side = 2 * around + 1;
-  for (int k = 0; k < side * side * side; ++k)
-  {
-    const Cell cell{ middle[0] + k % side - around, middle[1] + k / side % side - around,
-      middle[2] + k / (side * side) - around };
-    const Eigen::Vector3d low = cell_ * Eigen::Vector3d(cell[0], cell[1], cell[2]);
-    const Eigen::Vector3d nearest =
-      position.cwiseMax(low).cwiseMin(low + Eigen::Vector3d::Constant(cell_));
-    if ((nearest - position).squaredNorm() < reach_ * reach_)
-    {
-      visit(cells_[keyOf(cell)]);
-    }
-  }
-}
-
 float ComplianceField::constantOf(const Place& place) noexcept
 {
   return place.beside > 0.0F ? place.rest + place.wedge / place.beside : place.rest;
@@ -200,7 +138,7 @@ void ComplianceField::Around<kSpots>::move(const Rows<3, kSpots>& way) noexcept
 
 // by a weight of Wendland's, 1 at a place and 0 from its reach on
 template <int kSpots, typename Visit>
-ComplianceField::Lanes<kSpots> ComplianceField::forNear(
+[[gnu::always_inline]] inline ComplianceField::Lanes<kSpots> ComplianceField::forNear(
   const Around<kSpots>& spots, const Range& range, const Visit& visit) const noexcept
 {
   const Eigen::Vector3f normal = spots.normals.col(0);
@@ -210,16 +148,19 @@ ComplianceField::Lanes<kSpots> ComplianceField::forNear(
   {
     const Place& place = places_[near_[k]];
     const Eigen::Vector3f to = spots.origin - place.position;
-    if (to.squaredNorm() >= reach_ * reach_ || place.normal.dot(normal) < kAskew - kTurned)
+    const float cosine = place.normal.dot(normal);
+    if (to.squaredNorm() >= reach_ * reach_ || cosine < kAskew - kTurned)
     {
       continue;
     }
     const Rows<3, kSpots> away = spots.centers.colwise() + to.array();
     const Lanes<kSpots> rest = (1.0F - perReach_ * lengthsOf(away)).max(0.0F);
-    constexpr float kTurns = 1.0F / (kFacing - kAskew);
-    const Lanes<kSpots> facing =
-      smoothStepOf(kTurns * (along(place.normal, spots.normals) - kAskew));
-    const Lanes<kSpots> weight = facing * rest.square().square() * (5.0F - 4.0F * rest);
+    Lanes<kSpots> weight = rest.square().square() * (5.0F - 4.0F * rest);
+    if (cosine < kFacing + kTurned)
+    {
+      constexpr float kTurns = 1.0F / (kFacing - kAskew);
+      weight *= smoothStepOf(kTurns * (along(place.normal, spots.normals) - kAskew));
+    }
     all += weight;
     visit(place, away, weight);
   }
@@ -230,15 +171,18 @@ template <int kSpots>
 ComplianceField::Blend<kSpots> ComplianceField::blendAt(
   const Around<kSpots>& spots, const Range& range) const noexcept
 {
-  Blend<kSpots> sums = Blend<kSpots>::Zero();
+  Blend<kSpots> sums;
+  sums.setConstant(0.0F);
   const Lanes<kSpots> all = forNear<kSpots>(
     spots, range,
     [&](const Place& place, const Rows<3, kSpots>& away, const Lanes<kSpots>& weight)
       __attribute__((always_inline)) {
         sums.template bottomRows<3>().matrix() += place.normal * weight.matrix();
         sums.row(kBend) += weight * place.bend;
-        sums.row(kDoubtful) += weight * place.doubtful;
-        sums.row(kAbove) += weight * along(place.normal, away);
+        if constexpr (kSpots == 1) // four are not asked for it
+        {
+          sums.row(kDoubtful) += weight * place.doubtful;
+        }
         if (place.beside > 0.0F)
         {
           sums.row(kPart) += weight;
@@ -261,17 +205,39 @@ ComplianceField::Blend<kSpots> ComplianceField::blendAt(
   return sums.rowwise() / all;
 }
 
+template <int kSpots>
+ComplianceField::Faces<kSpots> ComplianceField::facesAt(
+  const Around<kSpots>& spots, const Range& range) const noexcept
+{
+  Faces<kSpots> sums{ Rows<3, kSpots>::Zero(), Lanes<kSpots>::Zero(), Lanes<kSpots>::Zero() };
+  const Lanes<kSpots> all = forNear<kSpots>(
+    spots, range,
+    [&](const Place& place, const Rows<3, kSpots>& away, const Lanes<kSpots>& weight)
+      __attribute__((always_inline)) {
+        sums.outward.matrix() += place.normal * weight.matrix();
+        sums.above += weight * along(place.normal, away);
+        if (place.beside > 0.0F)
+        {
+          sums.part += weight;
+        }
+      });
+  constexpr float kNone = 1e-30F; // of all weights: nothing is beside an edge there
+  sums.above /= all.max(kNone);
+  sums.part /= all.max(kNone);
+  return sums;
+}
+
 // over an edge the normal leans from that of the face, whose foot is elsewhere; where two faces
 // meet in a hollow, both are pressed, and the foot would leap from one to the other
 template <int kSpots>
 ComplianceField::Rows<3, kSpots> ComplianceField::toFace(
-  const Around<kSpots>& spots, const Blend<kSpots>& told) const noexcept
+  const Around<kSpots>& spots, const Faces<kSpots>& faces) const noexcept
 {
-  const auto faces = told.template bottomRows<3>();
   const auto over = static_cast<float>(kOver * cell_);
-  const Lanes<kSpots> flat = smoothStepOf(1.0F - told.row(kAbove) / over);
-  const Rows<3, kSpots> leaning = (spots.normals - faces.rowwise() / lengthsOf(faces)).rowwise() *
-    (flat * told.row(kPart) * spots.heights);
+  const Lanes<kSpots> flat = smoothStepOf(1.0F - faces.above / over);
+  const Rows<3, kSpots> leaning =
+    (spots.normals - faces.outward.rowwise() / lengthsOf(faces.outward)).rowwise() *
+    (flat * faces.part * spots.heights);
   // beyond an edge no further than places reach
   const auto most = static_cast<float>(cell_);
   return leaning.rowwise() / (1.0F + (lengthsOf(leaning) / most).square()).sqrt();
@@ -283,17 +249,21 @@ std::array<ComplianceField::Local, kSpots> ComplianceField::tellAt(
 {
   constexpr float kStill = 2e-8F; // [m] that moves a force by less than 1e-5 of itself
   Around<kSpots> spots(asked);
-  Blend<kSpots> told = blendAt(spots, near(asked[0].center));
-  if (spots.heights[0] > 0.0F && told.row(kPart).minCoeff() > 0.0F)
+  Range range = near(asked[0].center);
+  if (spots.heights[0] > 0.0F && range.isBesideEdge)
   {
-    const Rows<3, kSpots> way = toFace(spots, told);
-    if (way.abs().maxCoeff() > kStill)
+    const Faces<kSpots> faces = facesAt(spots, range);
+    if (faces.part.minCoeff() > 0.0F)
     {
-      spots.move(way);
-      told = blendAt(spots, near(spots.origin.template cast<double>()));
+      const Rows<3, kSpots> way = toFace(spots, faces);
+      if (way.abs().maxCoeff() > kStill)
+      {
+        spots.move(way);
+        range = near(spots.origin.template cast<double>());
+      }
     }
   }
-  return localsOf<kSpots>(told);
+  return localsOf<kSpots>(blendAt(spots, range));
 }
 
 // beside edges, of the wedge that places there tell together: W/D, its slope W/(2 D^2), and 1/D by

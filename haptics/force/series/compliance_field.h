@@ -86,7 +86,7 @@ public:
   [[nodiscard]] Local at(const Eigen::Vector3d& center, const Eigen::Vector3d& normal,
     double height = 0.0) const noexcept;
 
-  /// At four that are next to each other, in the time of one.
+  /// At four that are next to each other, in the time of one; what is doubtful is not told.
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] std::array<Local, 4> atFour(const std::array<Spot, 4>& spots) const noexcept;
 
@@ -135,7 +135,6 @@ private:
     kBeside,   // D times the part of places beside an edge
     kDoubtful, // part of places that may not be believed
     kPart,     // of places beside an edge
-    kAbove,    // mean height of the spot over their planes [m]
     kOutward,  // mean of their normals, x, y, z
     kTold = kOutward + 3
   };
@@ -164,10 +163,20 @@ private:
   template <int kSpots>
   using Blend = Rows<kTold, kSpots>;
 
+  // how they lie, beside an edge
+  template <int kSpots>
+  struct Faces
+  {
+    Rows<3, kSpots> outward; // along the mean of their normals
+    Lanes<kSpots> above;     // mean height of the spot over their planes [m]
+    Lanes<kSpots> part;      // of them beside an edge
+  };
+
   struct Range
   {
     std::uint32_t first = 0;
-    std::uint32_t last = 0; // the one behind it
+    std::uint32_t last = 0;    // the one behind it
+    bool isBesideEdge = false; // one of them
   };
 
   [[nodiscard]] Cell cellOf(const Eigen::Vector3d& place) const noexcept;
@@ -180,8 +189,11 @@ private:
   [[nodiscard]] Blend<kSpots> blendAt(
     const Around<kSpots>& spots, const Range& range) const noexcept;
   template <int kSpots>
+  [[nodiscard]] Faces<kSpots> facesAt(
+    const Around<kSpots>& spots, const Range& range) const noexcept;
+  template <int kSpots>
   [[nodiscard]] Rows<3, kSpots> toFace(
-    const Around<kSpots>& spots, const Blend<kSpots>& told) const noexcept; // to the foot on it
+    const Around<kSpots>& spots, const Faces<kSpots>& faces) const noexcept; // to the foot on it
   template <int kSpots>
   [[nodiscard]] std::array<Local, kSpots> tellAt(
     const std::array<Spot, kSpots>& asked) const noexcept;

@@ -30,9 +30,9 @@ SeriesBody::Below SeriesBody::at(const SeriesPlace& place) const noexcept
   return { told[0].body, { told[1].body, told[2].body, told[3].body } };
 }
 
-Eigen::Vector3d SeriesBody::lateral(const Below& body, double force) const noexcept
+Eigen::Vector3d SeriesBody::lateral(const Below& body, const SeriesLaw::Loaded& load) const noexcept
 {
-  return law.lateral(body.here, body.aside, kStep, force);
+  return law.lateral(body.here, body.aside, kStep, load);
 }
 
 std::shared_ptr<const SeriesBody> seriesBodyOf(

@@ -50,9 +50,10 @@ struct SeriesBody
 
   /// On the tool, toward where the body gives way more [N].
   ///
-  /// @param force  at which the contact is held [N]
-  /// @realtime     pure; no allocation, no lock, no exception
-  [[nodiscard]] Eigen::Vector3d lateral(const Below& body, double force) const noexcept;
+  /// @param load  of the body where the tool stands
+  /// @realtime    pure; no allocation, no lock, no exception
+  [[nodiscard]] Eigen::Vector3d lateral(
+    const Below& body, const SeriesLaw::Loaded& load) const noexcept;
 };
 
 /// @return  null where there is no field

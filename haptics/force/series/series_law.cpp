@@ -192,41 +192,39 @@ double SeriesLaw::aside(const BodyCompliance& body, double force) const noexcept
   return f > 0.0 ? gainOf(f, width, body).aside / width.value : 0.0;
 }
 
-double SeriesLaw::energy(const BodyCompliance& body, double force) const noexcept
-{
-  const Moved moved = movedBy(force, body);
-  return modulus_ * (energyOf(moved, body) + moved.force * moved.force * moved.less);
-}
-
-// x is where the gain is most, so that its own change does not count
-Eigen::Vector3d SeriesLaw::lateral(const BodyCompliance& here,
-  const std::array<BodyCompliance, 3>& aside, double step, double force) const noexcept
-{
-  const Moved moved = movedBy(force, here);
-  const double energy = energyOf(moved, here);
-  const auto slope = [&](const BodyCompliance& body)
-  { return modulus_ * (energyOf(moved, body) - energy) / step; };
-  return { slope(aside[0]), slope(aside[1]), slope(aside[2]) };
-}
-
-SeriesLaw::Moved SeriesLaw::movedBy(double force, const BodyCompliance& body) const noexcept
+SeriesLaw::Loaded SeriesLaw::load(const BodyCompliance& body, double force) const noexcept
 {
   const double f = force / modulus_;
   const double root = std::cbrt(std::max(0.0, f));
   const Radius width = radiusAt(root);
-  Moved moved{ f, widenedAt(root, width.value), 0.0, 0.0 };
+  Loaded load{ f, widenedAt(root, width.value), 0.0, 0.0 };
   if (body.slope > 0.0 && f > 0.0)
   {
     const Gain gain = gainOf(f, width, body);
-    moved.aside = gain.aside;
-    moved.less = gain.less;
+    load.aside = gain.aside;
+    load.less = gain.less;
   }
-  return moved;
+  return load;
 }
 
-double SeriesLaw::energyOf(const Moved& moved, const BodyCompliance& body) noexcept
+double SeriesLaw::energy(const BodyCompliance& body, const Loaded& load) const noexcept
 {
-  const auto& [f, widened, x, less] = moved;
+  return modulus_ * (energyOf(load, body) + load.force * load.force * load.less);
+}
+
+// x is where the gain is most, so that its own change does not count
+Eigen::Vector3d SeriesLaw::lateral(const BodyCompliance& here,
+  const std::array<BodyCompliance, 3>& aside, double step, const Loaded& load) const noexcept
+{
+  const double energy = energyOf(load, here);
+  const auto slope = [&](const BodyCompliance& body)
+  { return modulus_ * (energyOf(load, body) - energy) / step; };
+  return { slope(aside[0]), slope(aside[1]), slope(aside[2]) };
+}
+
+double SeriesLaw::energyOf(const Loaded& load, const BodyCompliance& body) noexcept
+{
+  const auto& [f, widened, x, less] = load;
   return f * f * (0.5 * body.constant - body.slope * x / (1.0 + body.edge * x)) +
     kWidened * widened * body.bend;
 }

@@ -91,19 +91,30 @@ public:
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] double aside(const BodyCompliance& body, double force) const noexcept;
 
+  /// A force on a body, as all that is told of it begins with.
+  struct Loaded
+  {
+    double force;   ///< over E* [m^2]
+    double widened; ///< int a^2 f df [m^6]
+    double aside;   ///< by which the pressure moves, x [m]
+    double less;    ///< that costs the contact, x^2 / (2 q) [1/m]
+  };
+
+  /// @param force  at which the contact is held [N]
+  /// @realtime     pure; no allocation, no lock, no exception; the next likewise
+  [[nodiscard]] Loaded load(const BodyCompliance& body, double force) const noexcept;
+
   /// What the body adds to the complementary energy [J].
-  /// @realtime  pure; no allocation, no lock, no exception
-  [[nodiscard]] double energy(const BodyCompliance& body, double force) const noexcept;
+  [[nodiscard]] double energy(const BodyCompliance& body, const Loaded& load) const noexcept;
 
   /// On the tool, toward where the body gives way more: by that energy, so that whatever the body
   /// depends on counts [N].
   ///
+  /// @param load    of the body where the tool stands
   /// @param aside   the body where the tool stands a step aside, along x, y and z
   /// @param step    [m]
-  /// @param force   at which the contact is held [N]
-  /// @realtime      pure; no allocation, no lock, no exception
   [[nodiscard]] Eigen::Vector3d lateral(const BodyCompliance& here,
-    const std::array<BodyCompliance, 3>& aside, double step, double force) const noexcept;
+    const std::array<BodyCompliance, 3>& aside, double step, const Loaded& load) const noexcept;
 
 private:
   static constexpr int kMostSteps = 8;   // one or two are usual
@@ -148,15 +159,6 @@ private:
     double slope; // da/df
   };
 
-  // a force over E* whose pressure has moved
-  struct Moved
-  {
-    double force;
-    double widened; // int a^2 f df
-    double aside;   // x [m]
-    double less;    // x^2 / (2 q) [1/m]
-  };
-
   // of what the pressure gains by moving aside: the complementary energy is f^2 times the height
   struct Gain
   {
@@ -172,9 +174,8 @@ private:
   [[nodiscard]] Radius radiusOf(double force) const noexcept;
   [[nodiscard]] Radius radiusAt(double root) const noexcept; // of the cube root of f
   [[nodiscard]] double widenedAt(double root, double radius) const noexcept; // int a^2 f df
-  [[nodiscard]] Moved movedBy(double force, const BodyCompliance& body) const noexcept;
   // over E*, without what moving costs the contact
-  [[nodiscard]] static double energyOf(const Moved& moved, const BodyCompliance& body) noexcept;
+  [[nodiscard]] static double energyOf(const Loaded& load, const BodyCompliance& body) noexcept;
   [[nodiscard]] Gain gainOf(
     double force, const Radius& width, const BodyCompliance& body) const noexcept;
   [[nodiscard]] Yield yieldOf(double force, const BodyCompliance& body) const noexcept;

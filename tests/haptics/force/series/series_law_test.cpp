@@ -178,8 +178,8 @@ TEST(SeriesLaw, ItsEnergyIsTheWorkOfItsForce)
       {
         local += press.alone(last.local * (i + 0.5) / parts).force * last.local / parts;
       }
-      const double complementary =
-        last.felt.force * last.local - local + press.series().energy(body, last.felt.force);
+      const double complementary = last.felt.force * last.local - local +
+        press.series().energy(body, press.series().load(body, last.felt.force));
       EXPECT_NEAR(last.felt.force * deepest - complementary, work, 1e-4 * work)
         << tip.index() << ' ' << body.constant;
     }
@@ -215,8 +215,9 @@ TEST(SeriesLaw, ItsLateralForceIsTheSlopeOfTheEnergy)
       const double slope = (energy(step) - energy(-step)) / (2.0 * step);
       const double force = press.force(bodyAt(0.0), deepest);
       constexpr double aside = 1e-5; // [m]
-      const Eigen::Vector3d lateral = press.series().lateral(
-        bodyAt(0.0), { bodyAt(aside), bodyAt(-aside), bodyAt(0.0) }, aside, force);
+      const Eigen::Vector3d lateral =
+        press.series().lateral(bodyAt(0.0), { bodyAt(aside), bodyAt(-aside), bodyAt(0.0) }, aside,
+          press.series().load(bodyAt(0.0), force));
       EXPECT_NEAR(lateral.x(), -slope, 5e-3 * std::abs(slope)) << tip.index() << ' ' << deepest;
       EXPECT_NEAR(lateral.y(), slope, 5e-3 * std::abs(slope)) << tip.index() << ' ' << deepest;
       EXPECT_EQ(lateral.z(), 0.0);
