@@ -90,17 +90,33 @@ void waitForHoming(Driver& driver, DriverSample& sample)
 }
 
 // what hardly is of an arm, but of a computer that was late or of one axis that is told wrong
-void tellDoubts(const IdentifiedArm& arm)
+std::string doubtOf(const IdentifiedArm& arm)
 {
   constexpr double kUnlike = 4.0;
   constexpr double kLongest = 7.9e-3; // of the delays that are looked for [s]
+  constexpr double kLate = 0.002;     // of the exchanges
   const auto [light, heavy] = std::ranges::minmax(arm.axes, {}, &ArmAxis::mass);
-  if (heavy.mass > kUnlike * light.mass || arm.delay > kLongest)
+  if (arm.delay > kLongest)
+  {
+    return "a delay of 8 ms is the longest that is looked for";
+  }
+  if (heavy.mass > kUnlike * light.mass)
+  {
+    return "one axis is more than four times as heavy as another";
+  }
+  return arm.late > kLate
+    ? "this computer was late in " + std::to_string(std::lround(1e3 * arm.late)) +
+      " of 1000 exchanges, by which damping and friction may be off by half"
+    : "";
+}
+
+void tellDoubts(const IdentifiedArm& arm)
+{
+  if (const std::string doubt = doubtOf(arm); !doubt.empty())
   {
     std::printf("  Doubtful: %s. Measure again with nothing else running; if it stays, look at the "
                 "encoders and the configuration.\n",
-      arm.delay > kLongest ? "a delay of 8 ms is the longest that is looked for"
-                           : "one axis is more than four times as heavy as another");
+      doubt.c_str());
   }
 }
 

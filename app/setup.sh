@@ -5,7 +5,7 @@ palp_packages=(build-essential cmake ninja-build libeigen3-dev libopenmesh-dev l
   libopenigtlink-dev libspnav-dev libwebsockets-dev libcli11-dev nlohmann-json3-dev nettle-dev
   zlib1g-dev libseccomp-dev libsuitesparse-dev libgdcm-dev libicu-dev libsystemd-dev
   libegl-dev libegl1 libgl1-mesa-dri fonts-dejavu-core pkgconf)
-palp_test_packages=(ccache libgtest-dev dbus-daemon dcmtk libopenblas0-serial xvfb xauth umockdev libumockdev-dev clang-format clang-tidy codespell python3 parallel faketime)
+palp_test_packages=(ccache clang libclang-rt-dev llvm libgtest-dev dbus-daemon dcmtk libopenblas0-serial xvfb xauth umockdev libumockdev-dev clang-format clang-tidy codespell python3 parallel faketime)
 palp_long_test_packages=(slurmctld slurmd slurm-client munge)
 
 # palp_install PACKAGE...: nothing is done, and nothing printed, when all are there

@@ -10,6 +10,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   target_compile_options(palp_flags INTERFACE -Wno-error=array-bounds -Wno-error=restrict
     -Wno-error=stringop-overflow -Wno-error=stringop-overread)
 endif()
+if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+  target_compile_options(palp_flags INTERFACE -Wno-sign-conversion) # which g++ does not count to it
+endif()
 if(NOT PALP_SANITIZE)
   # what a damaged file could do to a reader ends the process instead
   target_compile_options(palp_flags INTERFACE -fstack-protector-strong
@@ -19,7 +22,8 @@ endif()
 if(PALP_SANITIZE)
   # gcc 12 sees values unset in instrumented code that are not
   target_compile_options(palp_flags INTERFACE -fsanitize=${PALP_SANITIZE} -fno-omit-frame-pointer
-    -Wno-maybe-uninitialized)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  target_compile_definitions(palp_flags INTERFACE PALP_SANITIZED)
   target_link_options(palp_flags INTERFACE -fsanitize=${PALP_SANITIZE})
   if(PALP_SANITIZE MATCHES undefined)
     # half of the time to compile, for what AddressSanitizer finds as well (pointers that are null or

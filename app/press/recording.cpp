@@ -244,7 +244,8 @@ std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Co
   }
   else if (scene.surface != nullptr && !scene.surface->tree().empty())
   {
-    rules.push_back(lobeRule(*scene.surface, contact, scene.law.settings().base));
+    rules.push_back(lobeRule(
+      *scene.surface, contact, scene.law(geometry).contactRadius, scene.law.settings().base));
     rules.push_back(openRule(*scene.surface, contact));
   }
   rules.push_back(unevenRule(scene.law.tip(), contact));

@@ -5,34 +5,50 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace palp
 {
 
-Rule lobeRule(const Surface& surface, const Contact& contact, Base base) noexcept
+Rule lobeRule(
+  const Surface& surface, const Contact& contact, double contactRadius, Base base) noexcept
 {
-  constexpr double kLobe = 2.0;  // of the thickness, the least extent of the body
-  constexpr double kPlate = 2.5; // likewise, the side of a square plate of its size
+  constexpr double kModulus = 1.25; // E* over E, of liver
+  constexpr double kLobe = 2.0;     // of the thickness, the least extent of the body
+  constexpr double kPlate = 2.5;    // likewise, the side of a square plate of its size
   // whatever has its base unset: even a ball that hangs from one side gives way
   constexpr double kUnset = 0.9;
   const BoxTree::Node& all = surface.tree().nodes().front();
   double least = std::numeric_limits<double>::infinity();
   double squares = 0.0;
+  double box = 1.0;
+  double high = 0.0; // along the normal [m]
   for (std::size_t k = 0; k < all.low.size(); ++k)
   {
     const double extent = static_cast<double>(all.high[k]) - static_cast<double>(all.low[k]);
     least = std::min(least, extent);
     squares += extent * extent;
+    box *= extent;
+    high += std::abs(contact.normal[static_cast<int>(k)]) * extent;
   }
   const double wide = std::sqrt(0.5 * squares);
-  return { "lobe", "-",
-    contact.touching() && base == Base::Unset
-      ? std::max(kUnset, std::max(least / kLobe, wide / kPlate) / contact.thickness)
-      : 0.0,
-    1.0,
-    "thinner than half of the body, or than 0.4 of its extent, and nobody says what is below: "
-    "a part that nothing holds bends, and is felt softer; --base says that it lies on something "
-    "rigid, palp organ and --organ take the bending into account" };
+  Rule rule{ "lobe", "-", 0.0, 1.0,
+    "as high and slim as a column, or thinner than half of the body or 0.4 of its extent and "
+    "nobody says what is below: what nothing holds beside or below gives way, and is felt softer; "
+    "--base says that it lies on something rigid, palp organ and --organ take all of it into "
+    "account" };
+  if (contact.touching())
+  {
+    const double thickness = contact.thickness;
+    const double lobe = std::max(kUnset, std::max(least / kLobe, wide / kPlate) / thickness);
+    // that of a half-space below the body is in the law
+    const double column = std::isfinite(thickness) && box > 0.0
+      ? kModulus * thickness * high / box - std::numbers::inv_pi / thickness
+      : 0.0;
+    rule.value = std::max(
+      2.0 * contactRadius * column / Validity::kJustNoticeable, base == Base::Unset ? lobe : 0.0);
+  }
+  return rule;
 }
 
 Rule openRule(const Surface& surface, const Contact& contact) noexcept

@@ -13,11 +13,16 @@ namespace palp
 ///
 /// Half of the body, as a lobe of a thicker one; or 0.4 of its extent: held at one end it gives
 /// way by bending and shear as much as a contact of a fifth of its thickness does, or more.
-/// Doubtful everywhere else, as it depends on what nobody says.
+/// Doubtful everywhere else, as it depends on what nobody says. And whatever is below, whether the
+/// body is compressed along the press, as a rod of the section of its box, by 7 % of what the
+/// contact yields more than the law knows of.
+///
+/// @param contactRadius  [m]
 ///
 /// @source    Timoshenko, Strength of Materials I, 1955, Sec. 39 (cantilever, with shear)
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] Rule lobeRule(const Surface& surface, const Contact& contact, Base base) noexcept;
+[[nodiscard]] Rule lobeRule(
+  const Surface& surface, const Contact& contact, double contactRadius, Base base) noexcept;
 
 /// Whether nothing is known of what lies behind the surface, which is open: the law then takes the
 /// body as without end. A bonded base 2, 6 and 10 contact radii below makes it 1.8, 1.2 and 1.1

@@ -21,6 +21,7 @@ struct IdentifiedArm
   double delay = 0.0;       ///< from a command to the position that shows it [s]
   double encoderStep = 0.0; ///< smallest step of the positions [m]
   double scale = 1.0;       ///< newtons that a hand feels for one that is told; 1: not measured
+  double late = 0.0;        ///< part of the exchanges that the computer was late in; not kept
 
   /// Below it a motion does not follow its push: the sign or the place of a motor is wrong.
   static constexpr double kAgrees = 0.7;

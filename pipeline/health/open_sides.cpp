@@ -8,7 +8,6 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <ranges>
 #include <utility>
 
 namespace palp
@@ -65,13 +64,17 @@ public:
   {
     std::vector<int> starts;
     std::vector<int> more(points_.size()); // that go off than come
-    for (const Side& side : std::views::join(from_))
+    for (const std::vector<Side>& sides : from_)
     {
-      starts.push_back(start(side));
-      ++more[at(start(side))];
-      --more[at(end(side))];
+      for (const Side& side : sides)
+      {
+        starts.push_back(start(side));
+        ++more[at(start(side))];
+        --more[at(end(side))];
+      }
     }
-    std::ranges::stable_partition(starts, [&](int point) { return more[at(point)] > 0; });
+    std::stable_partition(
+      starts.begin(), starts.end(), [&](int point) { return more[at(point)] > 0; });
     return starts;
   }
 

@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <numeric>
-#include <ranges>
 #include <utility>
 
 namespace palp
@@ -30,9 +29,10 @@ Reach reachOf(
 {
   Reach reach{ .most = std::vector<double>(points.size()),
     .isOpen = std::vector<bool>(points.size()) };
-  for (const int end : std::views::join(edges.unpaired))
+  for (const auto& [a, b] : edges.unpaired)
   {
-    reach.isOpen[at(end)] = true;
+    reach.isOpen[at(a)] = true;
+    reach.isOpen[at(b)] = true;
   }
   const auto shorten = [&](const std::vector<std::array<int, 2>>& all, bool isOpen)
   {

@@ -56,7 +56,8 @@ std::vector<bool> repeatedTriangles(std::span<const Triangle> triangles, bool tu
   {
     sorted[i] = { triangles[i], i };
     Triangle& t = sorted[i].first;
-    turned ? void(std::ranges::sort(t)) : void(std::ranges::rotate(t, std::ranges::min_element(t)));
+    turned ? void(std::ranges::sort(t))
+           : void(std::rotate(t.begin(), std::ranges::min_element(t), t.end()));
   }
   std::ranges::sort(sorted);
   std::vector<bool> result(triangles.size());

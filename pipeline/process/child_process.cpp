@@ -29,7 +29,7 @@ constexpr char kError = 'E'; // then the code in one byte, and the message
 constexpr char kDone = 'D';  // then percent in one byte, and another such message
 
 // sanitizers reserve more than any limit, make calls of their own, and take several times as long
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef PALP_SANITIZED
 constexpr bool kSanitized = true;
 #else
 constexpr bool kSanitized = false;

@@ -5,7 +5,7 @@
 #include "pipeline/surface_io/surface_io.h"
 
 #include <gtest/gtest.h>
-#ifdef __SANITIZE_ADDRESS__
+#ifdef PALP_SANITIZED
 #include <sanitizer/lsan_interface.h>
 #endif
 
@@ -22,7 +22,7 @@ public:
   {
     const bool asProgram = count_++ % 5 == 0;
     const Said said(asProgram);
-#ifdef __SANITIZE_ADDRESS__
+#ifdef PALP_SANITIZED
     // VTK loses some of what it throws away of a damaged file, which ends with palp-read
     const __lsan::ScopedDisabler leaks;
 #endif

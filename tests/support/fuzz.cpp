@@ -17,7 +17,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef PALP_SANITIZED
 // what a process may take at once is limited here, as RLIMIT_DATA would take the shadow memory,
 // too; short stacks of allocations save a third of the time
 extern "C" const char* __asan_default_options() // NOLINT(bugprone-reserved-identifier): its name

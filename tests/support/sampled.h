@@ -3,7 +3,7 @@
 namespace palp::test
 {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef PALP_SANITIZED
 constexpr bool kSanitized = true; ///< takes more time and memory than any limit
 #else
 constexpr bool kSanitized = false;

@@ -237,7 +237,8 @@ void addOrganCommand(CLI::App& app)
   command
     ->add_option("--support", options->supports,
       "Where it rests, may be given again: bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, "
-      "bonded:direction:X,Y,Z:30deg where the surface faces so, bonded:label:7 where it touches "
+      "bonded:direction:X,Y,Z:30deg where the surface faces so with nothing of the body before it, "
+      "bonded:label:7 where it touches "
       "another label of its image, or bonded:points:FILE where it was painted, x_mm,y_mm,z_mm in "
       "its frame; sliding holds across it only. Of a liver in LPS also posterior (faces the back "
       "within 60deg), ligaments (back and head, 30deg), hilum (20 mm around the middle of what "
@@ -257,7 +258,14 @@ void addOrganCommand(CLI::App& app)
     ->excludes(out);
   addTip(*command, options->tip, "sphere:10mm");
   const auto depths = [all](const std::string& text)
-  { all->depths = parseRange(text, Quantity::Length, "--depth"); };
+  {
+    all->depths = parseRange(text, Quantity::Length, "--depth");
+    if (all->depths.si.front() < 0.0)
+    {
+      throw Error(ErrorCode::BadValue,
+        "--depth: '" + text + "' begins above the surface; give depths of 0 or more");
+    }
+  };
   depths("1:5:1mm");
   add("--depth", "Depths A:B:STEP of the contact, below the even surface there; both ends included",
     "1:5:1mm", depths);
@@ -280,7 +288,8 @@ void addOrganCommand(CLI::App& app)
     "beyond half of the thickness; contact too wide where its radius is more than the distance to\n"
     "an edge or half of what is below, or the body leans its pressure by a third of that aside;\n"
     "cells too large where what is below is less than two, or than 3.5 with nothing to hold it\n"
-    "behind; edge where one is nearer than two cells. With --out the same everywhere, at a\n"
+    "behind; edge where one is nearer than two cells; else the names of the rules that a press\n"
+    "breaks there, as in samples.csv. With --out the same everywhere, at a\n"
     "thousand places or more, some minutes.\n"
     "Examples:\n"
     "  palp organ --support posterior --cell 6mm --out liver.organ\n"

@@ -99,6 +99,18 @@ std::string described(const OrganTable& table)
   return text.empty() ? "all answered for" : "cannot answer for " + text;
 }
 
+// what no place tells of would be felt as a half-space
+void checkThatItTells(const OrganTable& table, const std::filesystem::path& out)
+{
+  if (std::ranges::all_of(
+        table.places, [](const PlacedCompliance& place) { return place.constant == 0.0; }))
+  {
+    throw Error(ErrorCode::BadValue,
+      out.string() + ": is not written, as it " + described(table) +
+        ", which is all of the body; give smaller cells by --cell, or supports that hold less");
+  }
+}
+
 // done, shown in units that are read at a glance
 void report(const OrganFilePlan& plan, const OrganTable& table, Clock::duration time)
 {
@@ -189,6 +201,8 @@ void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
     table.places.empty() ? void() : writeSealed(begun, table);
     throw Error(ErrorCode::NoSolution, table.places.empty() ? kNoPlaceYet : kStopped);
   }
+  std::filesystem::remove(begun);
+  checkThatItTells(table, plan.out);
   writeSealed(begun, table);
   progress.tell("motion of the whole body, to be drawn");
   if (!addMotion(table, model, surface, interrupt.token()))

@@ -80,9 +80,9 @@ const char* OrganPlace::remarkOf(const ToolPose& pose, const SeriesResponse& ans
   const BodyCompliance body = scene_.series->field->at(point_.position, point_.normal).body;
   return isHeld_                                                           ? "on a support"
     : travel > 0.5 * thickness_                                            ? "too deep"
+    : isTooThin_                                                           ? "cells too large"
     : edge_ < kTwo * cell_                                                 ? "edge"
     : answer.isBeyond || contact.width(scene_.series->law, body) > kWidest ? "contact too wide"
-    : isTooThin_                                                           ? "cells too large"
                                                                            : "";
 }
 

@@ -190,7 +190,7 @@ private:
     }
     const ArmPosition& before = heard_.value_or(*answer);
     const double jump = (answer->position - before.position).norm();
-    if (jump > kNoise + kFastest * (answer->time - before.time))
+    if (jump > kNoise + kFastest * (answer->time - before.sent)) // an answer may have been held up
     {
       return "the position leaps by " + std::to_string(std::lround(1e3 * jump)) +
         " mm; check the encoders, their cables and the configuration";
@@ -290,10 +290,14 @@ private:
   double lastWay_ = 1.0;
 };
 
-double median(std::array<double, 3> values)
+// why no mass was found
+std::string noSwing(const char* axis, double late)
 {
-  std::ranges::sort(values);
-  return values[1];
+  constexpr double kOften = 0.01;
+  return late > kOften ? "this computer was late in " + std::to_string(std::lround(100.0 * late)) +
+      " % of the exchanges, and nothing is kept; end what else runs, and try again"
+                       : std::string("the arm does not swing along ") + axis +
+      " as a mass with friction does, and nothing is kept; balance it, let go of it, and try again";
 }
 
 } // namespace
@@ -322,18 +326,18 @@ IdentifiedArm identifyArm(const ArmExchange& exchange, double step)
     const auto i = static_cast<std::size_t>(axis);
     swings[i] = pusher.swings(axis, breakaway[i]);
     delays[i] = fitSwings(swings[i], step).delay;
+    arm.late = std::max(arm.late, lateShare(swings[i]));
   }
   pusher.bringBack(0.5);
   (void)pusher.send(Vector3d::Zero());
-  arm.delay = median(delays);
+  std::ranges::sort(delays);
+  arm.delay = delays[1];
   for (std::size_t i = 0; i < 3; ++i)
   {
     const SwingModel model = fitSwings(swings[i], step, arm.delay);
     if (!(model.mass >= IdentifiedArm::kLeastMass))
     {
-      refuse(std::string("the arm does not swing along ") + kNames[i] +
-        " as a mass with friction does, and nothing is kept; balance it, let go of it, and try "
-        "again");
+      refuse(noSwing(kNames[i], arm.late));
     }
     arm.axes[i].mass = model.mass;
     arm.axes[i].damping = model.damping;

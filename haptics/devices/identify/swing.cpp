@@ -20,14 +20,36 @@ struct Even
 {
   std::vector<double> position;             // [m]
   std::vector<std::array<double, 3>> force; // [N]
+  std::vector<std::size_t> late;            // points before it that a late exchange was at
 };
 
 using Forces = Eigen::Matrix<double, kDelays, 3>; // a row for each delay
+
+// from each exchange to the next [s]
+std::vector<double> passed(const Swing& swing)
+{
+  std::vector<double> between;
+  for (std::size_t i = 1; i < swing.time.size(); ++i)
+  {
+    between.push_back(swing.time[i] - swing.time[i - 1]);
+  }
+  return between;
+}
+
+// from which on an exchange was held up, so that neither of its times is to be believed [s]
+double latest(std::vector<double> between)
+{
+  constexpr double kUsual = 0.5e-3; // that a thread waits for its turn [s]
+  const auto middle = between.begin() + static_cast<std::ptrdiff_t>(between.size() / 2);
+  std::ranges::nth_element(between, middle);
+  return 1.5 * *middle + kUsual;
+}
 
 // positions between exchanges lie on a line, forces are held
 Even onGrid(const Swing& swing)
 {
   Even even;
+  const double late = latest(passed(swing));
   std::size_t at = 0;
   std::size_t sent = 0;
   for (double t = swing.time.front(); t < swing.time.back(); t += kGrid)
@@ -44,6 +66,8 @@ Even onGrid(const Swing& swing)
     even.position.push_back(
       swing.position[at] + share * (swing.position[at + 1] - swing.position[at]));
     even.force.push_back(swing.force[sent]);
+    const bool isLate = swing.time[at + 1] - swing.time[at] > late;
+    even.late.push_back((even.late.empty() ? 0 : even.late.back()) + (isLate ? 1 : 0));
   }
   return even;
 }
@@ -132,8 +156,11 @@ void addWindows(
     run = direction[i] != 0 && direction[i] == direction[i - 1] ? run + 1 : 0;
     if (run > length && i >= next && i > length + kDelays)
     {
-      addWindow(windows, even, i - length, length, direction[i]);
       next = i + stride;
+      if (even.late[i] == even.late[i - length - kDelays])
+      {
+        addWindow(windows, even, i - length, length, direction[i]);
+      }
     }
   }
 }
@@ -168,6 +195,24 @@ SwingModel solve(const Windows& windows, std::optional<double> delay)
 }
 
 } // namespace
+
+double lateShare(std::span<const Swing> swings)
+{
+  std::size_t all = 0;
+  std::size_t late = 0;
+  for (const Swing& swing : swings)
+  {
+    if (swing.time.size() > 2)
+    {
+      const std::vector<double> between = passed(swing);
+      const double most = latest(between);
+      all += between.size();
+      late += static_cast<std::size_t>(
+        std::ranges::count_if(between, [most](double one) { return one > most; }));
+    }
+  }
+  return all > 0 ? static_cast<double>(late) / static_cast<double>(all) : 0.0;
+}
 
 SwingModel fitSwings(std::span<const Swing> swings, double step, std::optional<double> delay)
 {

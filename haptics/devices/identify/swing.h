@@ -35,7 +35,8 @@ struct SwingModel
 ///
 /// In its weak form: multiplied by sin^2 over windows in which the motion keeps its direction, and
 /// integrated by parts, so that no position is differentiated; linear in all but the delay, which
-/// is looked for in steps of 0.25 ms.
+/// is looked for in steps of 0.25 ms. No window holds an exchange that came late: its times are not
+/// to be believed.
 ///
 /// @param step   of the encoder [m]
 /// @param delay  where it is known from elsewhere, as from other axes [s]
@@ -43,5 +44,8 @@ struct SwingModel
 /// @source      modulating functions: Shinbrot, Trans. ASME 79, 1957
 [[nodiscard]] SwingModel fitSwings(
   std::span<const Swing> swings, double step, std::optional<double> delay = std::nullopt);
+
+/// Part of the exchanges that took 1.5 times as long as half of them and 0.5 ms more.
+[[nodiscard]] double lateShare(std::span<const Swing> swings);
 
 } // namespace palp

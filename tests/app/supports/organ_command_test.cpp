@@ -336,6 +336,9 @@ TEST(OrganCommand, RefusesInOneSentence)
     test::runCommand(block + "--support bonded:box:-60,-60,-55:60,60,-45 --young nan" + out).code,
     0);
   EXPECT_FALSE(std::filesystem::exists(out.substr(7)));
+  EXPECT_NE(test::runCommand(block + "--support posterior --at 0,0,0 --depth -3:1:1mm")
+              .err.find("begins above the surface"),
+    std::string::npos);
 }
 
 } // namespace

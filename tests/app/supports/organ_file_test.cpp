@@ -1,6 +1,9 @@
 #include "tests/support/process.h"
 
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 
 namespace palp
 {
@@ -37,6 +40,33 @@ TEST(OrganFile, IsMadeAnewWhereWhatItGoesOnFromIsDamaged)
   EXPECT_EQ(make().code, 2) << "a finished file may have been edited by hand";
   EXPECT_EQ(make(" --overwrite").code, 0);
   EXPECT_EQ(test::readAll(organ), whole);
+}
+
+// a plate that is held at one end: 16 times too stiff if it were felt as a half-space
+TEST(OrganFile, IsNotWrittenWhereNoPlaceIsAnswered)
+{
+  const test::TemporaryFolder folder;
+  const std::filesystem::path plate = folder.path() / "plate.obj";
+  {
+    std::ofstream file(plate);
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      file << "v " << ((corner & 1) != 0 ? 48 : 0) << ' ' << ((corner & 2) != 0 ? 11 : -11) << ' '
+           << ((corner & 4) != 0 ? 0 : -16) << '\n';
+    }
+    file << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  }
+  const auto make = [&](const std::string& cell)
+  {
+    return test::runCommand(PALP_PROGRAM " organ " + plate.string() +
+      " --unit mm --support bonded:direction:1,0,0:5deg --cell " + cell + " --out " +
+      (folder.path() / "plate.organ").string());
+  };
+  const test::Finished coarse = make("8mm");
+  EXPECT_EQ(coarse.code, 2) << coarse.err;
+  EXPECT_NE(coarse.err.find("give smaller cells"), std::string::npos) << coarse.err;
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  EXPECT_EQ(make("4mm").code, 0);
 }
 
 } // namespace

@@ -121,7 +121,8 @@ TEST(FlatEnd, OfAConeIsHeldByEachFloorAsFarAsItIsPressed)
   const Surface floors = floorsOf({ { -40.0_mm, 0.0, 0.0 }, { 0.0, 40.0_mm, -step } });
   for (const auto& [name, tip] : kFlats)
   {
-    const auto lift = [&](double depth) { return liftBelow(tip, std::max(0.0, depth), 0.0); };
+    const auto lift = [&tip = tip](double depth)
+    { return liftBelow(tip, std::max(0.0, depth), 0.0); };
     for (double depth = 0.2_mm; depth < 3.0_mm; depth += 0.2_mm)
     {
       const Contact contact = pressed(floors, { 0.0, 0.7_mm, -depth }, 0.0, tip);

@@ -116,18 +116,18 @@ INSTANTIATE_TEST_SUITE_P(ClosedLoop, ThroughTheChain,
 
 TEST_P(ThroughTheChain, AnyStiffnessBehavesAsAWallThatTheDeviceCanRender)
 {
-  const auto [stiffness, quantum] = GetParam();
+  const Wall& told = GetParam();
   const Worst worst = overTheGrid(
     [&](LoopCase& loop, double)
     {
-      loop.law = wall(stiffness);
-      loop.plant.quantum = quantum;
+      loop.law = wall(told.stiffness);
+      loop.plant.quantum = told.quantum;
       loop.chain = SafetySettings{};
     });
   EXPECT_GE(worst.energy, -1e-6);
   EXPECT_LE(worst.peakStep, 0.5 * (1.0 + 1e-9));
   EXPECT_LE(worst.limitCycleSpeed, 0.025);
-  if (quantum == 0.0)
+  if (told.quantum == 0.0)
   {
     EXPECT_LE(worst.envelope, 0.1);
   }

@@ -155,8 +155,8 @@ TEST_F(Images, AStoneInAFilledHollowIsNoPieceOfItsOwn)
     part.components = ImagePart::kAllComponents;
     const LoadedSurface surface =
       readSurface(write<vtkMetaImageWriter>("stone.mha", *image), LengthUnit::Millimeter, part);
-    EXPECT_TRUE(std::ranges::any_of(
-      surface.notes, [&](const std::string& note) { return note.find(words) != note.npos; }))
+    EXPECT_TRUE(std::ranges::any_of(surface.notes,
+      [&words = words](const std::string& note) { return note.find(words) != note.npos; }))
       << hollow;
     EXPECT_NEAR(volumeMm3(*surface.mesh) / spacing.prod(), chosen, 5.0) << hollow;
   }
@@ -193,8 +193,8 @@ TEST_F(Images, HollowsGoWithTheBodyAroundThem)
     ImagePart part{ .labels = { "1" } };
     part.components = components;
     const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, part);
-    EXPECT_TRUE(std::ranges::any_of(
-      surface.notes, [&](const std::string& note) { return note.find(words) != note.npos; }))
+    EXPECT_TRUE(std::ranges::any_of(surface.notes,
+      [&words = words](const std::string& note) { return note.find(words) != note.npos; }))
       << words;
     EXPECT_NEAR(volumeMm3(*surface.mesh) / (1.5 * 0.75), voxels, 0.005 * voxels) << words;
     EXPECT_TRUE(surface.closed);

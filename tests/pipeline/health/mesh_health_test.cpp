@@ -129,7 +129,7 @@ TEST(MeshHealth, CountsWhatIsThereTwiceAndWhatFacesTheOtherWay)
   for (std::size_t i = 0; i < 7; ++i)
   {
     Triangle again = sphere.triangles[100 * i];
-    std::ranges::rotate(again, again.begin() + static_cast<std::ptrdiff_t>(i % 3));
+    std::rotate(again.begin(), again.begin() + static_cast<std::ptrdiff_t>(i % 3), again.end());
     i % 2 == 0 ? void() : std::swap(again[0], again[1]);
     sphere.triangles.push_back(again);
   }

@@ -173,7 +173,9 @@ TEST(MeshRepair, LeavesOutATriangleThatLiesOnTheSurface)
 TEST(MeshRepair, CutsAtPointsOnAnEdgeBeforeHolesAreClosed)
 {
   Mesh mesh = cube();
-  const auto [a, b, c] = mesh.triangles[0];
+  const int a = mesh.triangles[0][0];
+  const int b = mesh.triangles[0][1];
+  const int c = mesh.triangles[0][2];
   const auto other = std::ranges::find_if(mesh.triangles.begin() + 1, mesh.triangles.end(),
     [&](const Triangle& t) { return std::ranges::count(t, a) + std::ranges::count(t, b) == 2; });
   const int d = *std::ranges::find_if(*other, [&](int i) { return i != a && i != b; });

@@ -135,7 +135,8 @@ private:
   // frames of a client, which are masked
   void take(std::string& heard)
   {
-    const auto octet = [&](std::size_t i) { return static_cast<unsigned char>(heard[i]); };
+    const auto octet = [&](std::size_t i)
+    { return std::size_t{ static_cast<unsigned char>(heard[i]) }; };
     while (heard.size() >= 6)
     {
       const bool longer = (octet(1) & 0x7F) == 126;

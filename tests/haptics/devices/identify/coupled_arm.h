@@ -58,6 +58,15 @@ struct CoupledArm
     return inverse.transpose() * damping.asDiagonal() * inverse;
   }
 
+  // moves on under the last torque
+  void wait(double duration)
+  {
+    for (const double end = time + duration; time < end;)
+    {
+      step(50e-6);
+    }
+  }
+
   ArmPosition exchange(const Eigen::Vector3d& force)
   {
     told = force;
@@ -65,10 +74,7 @@ struct CoupledArm
     const double sent = time;
     const Eigen::Vector3d torques = positionJacobian(shape, heard_).transpose() * force;
     commands_.emplace_back(sent + delay, torques);
-    for (int i = 0; i < 20; ++i)
-    {
-      step(50e-6);
-    }
+    wait(1e-3 - 25e-6);
     const Eigen::Vector3d place = forwardKinematics(shape, angles_);
     furthest = std::max(furthest, place.norm());
     const double count = 2.0 * std::numbers::pi * shape.capstan[0] / shape.body[0] / 2000.0;

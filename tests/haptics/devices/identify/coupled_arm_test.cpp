@@ -5,6 +5,7 @@
 #include "tests/haptics/devices/identify/coupled_arm.h"
 
 #include <gtest/gtest.h>
+#include <random>
 
 namespace palp
 {
@@ -94,6 +95,7 @@ TEST(IdentifyCoupled, ASoundArmIsMeasured)
         arm.damping.setConstant(damping);
         const IdentifiedArm found = arm.identify();
         EXPECT_TRUE(found.agrees()) << name;
+        EXPECT_EQ(found.late, 0.0) << name;
         EXPECT_EQ(unlikeAxis(found), "") << name;
         // of a push along one axis that leaves the others free; half of what is let pass comes of
         // the arm's shape, which changes over a swing of 10 mm
@@ -106,6 +108,86 @@ TEST(IdentifyCoupled, ASoundArmIsMeasured)
           EXPECT_NEAR(one.damping, viscous[axis], std::max(0.22 * viscous[axis], 0.02))
             << name << axis;
         }
+      }
+    }
+  }
+}
+
+// threads that have to wait for others, before a force goes out or with an answer in hand
+class BusyComputer
+{
+public:
+  BusyComputer(test::CoupledArm& arm, double every, double longest)
+    : arm_(arm)
+    , next_(1.0 / every)
+    , longest_(longest)
+  {
+  }
+
+  ArmPosition exchange(const Eigen::Vector3d& force)
+  {
+    const double sent = arm_.time;
+    const bool holdsAnswer = random_() % 2 == 0;
+    const double wait = pause();
+    arm_.wait(holdsAnswer ? 0.0 : wait);
+    ArmPosition now = arm_.exchange(force);
+    arm_.wait(holdsAnswer ? wait : 0.0);
+    now.sent = sent;
+    now.time = arm_.time;
+    return now;
+  }
+
+private:
+  double pause()
+  {
+    if (arm_.time < until_)
+    {
+      return 0.0;
+    }
+    until_ = arm_.time + next_(random_);
+    return std::uniform_real_distribution<double>(0.5e-3, longest_)(random_);
+  }
+
+  test::CoupledArm& arm_;
+  std::exponential_distribution<double> next_; // [s]
+  double longest_;                             // [s]
+  double until_ = 0.0;
+  std::mt19937 random_{ 5 };
+};
+
+// such times are not measured with, and where too few are left or figures may be off, it is said
+TEST(IdentifyCoupled, AComputerThatIsLateBlamesNoEncoderAndSaysSo)
+{
+  struct Busy
+  {
+    double every;   // [s]
+    double longest; // [s]
+  };
+  for (const Busy& busy : { Busy{ 1.0, 0.04 }, Busy{ 0.3, 0.02 }, Busy{ 0.1, 0.04 },
+         Busy{ 0.1, 0.01 }, Busy{ 0.03, 0.004 } })
+  {
+    for (const double damping : { 0.004, 0.03 })
+    {
+      test::CoupledArm arm;
+      arm.damping.setConstant(damping);
+      BusyComputer computer(arm, busy.every, busy.longest);
+      try
+      {
+        const IdentifiedArm found = identifyArm(
+          [&](const Eigen::Vector3d& force) { return computer.exchange(force); }, 54e-6);
+        EXPECT_TRUE(found.agrees());
+        EXPECT_GT(found.late, busy.every < 0.5 ? 0.002 : 0.0) << busy.every;
+        const Eigen::Vector3d mass = arm.mass().inverse().diagonal().cwiseInverse();
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const double one = found.axes[static_cast<std::size_t>(axis)].mass;
+          EXPECT_NEAR(one, mass[axis], 0.15 * mass[axis]) << busy.every << " " << axis;
+        }
+      }
+      catch (const Error& error)
+      {
+        EXPECT_NE(std::string(error.what()).find("late in"), std::string::npos) << error.what();
+        EXPECT_LT(busy.every, 0.2);
       }
     }
   }
