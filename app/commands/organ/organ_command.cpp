@@ -225,6 +225,36 @@ void runOrgan(const OrganOptions& options)
   tell(options, pressed, scene, places);
 }
 
+Range parseDepths(const std::string& text)
+{
+  Range depths = parseRange(text, Quantity::Length, "--depth");
+  if (depths.si.front() < 0.0)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--depth: '" + text + "' begins above the surface; give depths of 0 or more");
+  }
+  return depths;
+}
+
+constexpr const char* kFooter =
+  "What palp run --organ --law corrected --material linear feels, solved around places only:\n"
+  "the contact in series with the body's own compliance, by finite elements in cubes that its\n"
+  "surface cuts: linear, frictionless. constant and slope: E* of --young times what the body\n"
+  "adds. By cubes of 4 mm bonded slabs of 20 to 50 mm come out within 1.2 %\n"
+  "of the exact layer, lobes and edges 8 mm away within 4 %. remark: on a support; too deep\n"
+  "beyond half of the thickness; contact too wide where its radius is more than the distance to\n"
+  "an edge or half of what is below, or the body leans its pressure by a third of that aside;\n"
+  "cells too large where what is below is less than two, or than 3.5 with nothing to hold it\n"
+  "behind; edge where one is nearer than two cells; else the names of the rules that a press\n"
+  "breaks there, as in samples.csv. With --out the same everywhere, at a thousand places or\n"
+  "more, some minutes.\n"
+  "Examples:\n"
+  "  palp organ --support posterior --cell 6mm --out liver.organ\n"
+  "  palp organ --support ligaments --support hilum --cell 6mm --out hanging.organ\n"
+  "  palp organ liver.stl --support bonded:direction:0,1,0:60deg --at -48.5,38.4,39.5\n"
+  "  palp organ lobe.stl --support bonded:box:30,-60,-40:40,60,10 --at 0,0,0 --depth 1:6:1mm\n"
+  "  palp organ ct.nii.gz --label 5 --support bonded:label:10 --out liver.organ";
+
 } // namespace
 
 void addOrganCommand(CLI::App& app)
@@ -238,9 +268,9 @@ void addOrganCommand(CLI::App& app)
     ->add_option("--support", options->supports,
       "Where it rests, may be given again: bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, "
       "bonded:direction:X,Y,Z:30deg where the surface faces so with nothing of the body before it, "
-      "bonded:label:7 where it touches "
-      "another label of its image, or bonded:points:FILE where it was painted, x_mm,y_mm,z_mm in "
-      "its frame; sliding holds across it only. Of a liver in LPS also posterior (faces the back "
+      "bonded:label:7 where it touches another label of its image, or bonded:points:FILE where it "
+      "was painted, x_mm,y_mm,z_mm in its frame; sliding holds across it only. Of a liver in LPS "
+      "also posterior (faces the back "
       "within 60deg), ligaments (back and head, 30deg), hilum (20 mm around the middle of what "
       "faces the feet), bonded or sliding:posterior")
     ->required()
@@ -257,15 +287,7 @@ void addOrganCommand(CLI::App& app)
   command->add_option("--points", options->points, "More places: a list of 3D Slicer")
     ->excludes(out);
   addTip(*command, options->tip, "sphere:10mm");
-  const auto depths = [all](const std::string& text)
-  {
-    all->depths = parseRange(text, Quantity::Length, "--depth");
-    if (all->depths.si.front() < 0.0)
-    {
-      throw Error(ErrorCode::BadValue,
-        "--depth: '" + text + "' begins above the surface; give depths of 0 or more");
-    }
-  };
+  const auto depths = [all](const std::string& text) { all->depths = parseDepths(text); };
   depths("1:5:1mm");
   add("--depth", "Depths A:B:STEP of the contact, below the even surface there; both ends included",
     "1:5:1mm", depths);
@@ -279,24 +301,7 @@ void addOrganCommand(CLI::App& app)
     [all](const std::string& text) {
       all->cell = parseWithin(text, Quantity::Length, { 0.1_mm, 0.1, "0.1mm to 100mm" }, "--cell");
     });
-  command->footer(
-    "What palp run --organ --law corrected --material linear feels, solved around places only:\n"
-    "the contact in series with the body's own compliance, by finite elements in cubes that its\n"
-    "surface cuts: linear, frictionless. constant and slope: E* of --young\n"
-    "times what the body adds. By cubes of 4 mm bonded slabs of 20 to 50 mm come out within 1.2 %\n"
-    "of the exact layer, lobes and edges 8 mm away within 4 %. remark: on a support; too deep\n"
-    "beyond half of the thickness; contact too wide where its radius is more than the distance to\n"
-    "an edge or half of what is below, or the body leans its pressure by a third of that aside;\n"
-    "cells too large where what is below is less than two, or than 3.5 with nothing to hold it\n"
-    "behind; edge where one is nearer than two cells; else the names of the rules that a press\n"
-    "breaks there, as in samples.csv. With --out the same everywhere, at a\n"
-    "thousand places or more, some minutes.\n"
-    "Examples:\n"
-    "  palp organ --support posterior --cell 6mm --out liver.organ\n"
-    "  palp organ --support ligaments --support hilum --cell 6mm --out hanging.organ\n"
-    "  palp organ liver.stl --support bonded:direction:0,1,0:60deg --at -48.5,38.4,39.5\n"
-    "  palp organ lobe.stl --support bonded:box:30,-60,-40:40,60,10 --at 0,0,0 --depth 1:6:1mm\n"
-    "  palp organ ct.nii.gz --label 5 --support bonded:label:10 --out liver.organ");
+  command->footer(kFooter);
   command->callback([options] { runOrgan(*options); });
 }
 
