@@ -198,8 +198,10 @@ int identifyDevice(const std::string& name, const std::string& added)
   if (mass > 0.0 && arm.agrees())
   {
     const double scale = forceScale(*before, arm, mass);
+    const double late = arm.late;
     arm = *before;
     arm.scale = scale;
+    arm.late = late;
   }
   std::cout << driver->limits().model << ":\n" << std::flush;
   tell(arm);

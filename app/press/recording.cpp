@@ -223,9 +223,10 @@ std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Co
   const Rules all =
     validity(geometry, isOrgan ? std::numeric_limits<double>::infinity() : contact.edgeDistance);
   std::vector<Rule> rules(all.begin(), all.end());
+  const Response local = scene.law(geometry);
   if (scene.nodules != nullptr)
   {
-    const NoduleRules more = scene.nodules->rules(noduleContactOf(contact), scene.law(geometry));
+    const NoduleRules more = scene.nodules->rules(noduleContactOf(contact), local);
     rules.insert(rules.end(), more.begin(), more.end());
   }
   if (scene.stiffness != nullptr)
@@ -235,7 +236,6 @@ std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Co
   if (isOrgan)
   {
     std::ranges::for_each(rules, [](Rule& rule) { leaveToOrgan(rule); });
-    const Response local = scene.law(geometry);
     rules.push_back(seriesRule(*scene.series, scene.law,
       { contact.center, contact.normal, local.contactRadius, local.force, contact.thickness,
         contact.edgeDistance }));
@@ -244,8 +244,8 @@ std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Co
   }
   else if (scene.surface != nullptr && !scene.surface->tree().empty())
   {
-    rules.push_back(lobeRule(
-      *scene.surface, contact, scene.law(geometry).contactRadius, scene.law.settings().base));
+    rules.push_back(
+      lobeRule(*scene.surface, contact, local.contactRadius, scene.law.settings().base));
     rules.push_back(openRule(*scene.surface, contact));
   }
   rules.push_back(unevenRule(scene.law.tip(), contact));

@@ -100,11 +100,13 @@ std::string described(const OrganTable& table)
 }
 
 // what no place tells of would be felt as a half-space
-void checkThatItTells(const OrganTable& table, const std::filesystem::path& out)
+void checkThatItTells(
+  const OrganTable& table, const std::filesystem::path& out, const std::filesystem::path& begun)
 {
   if (std::ranges::all_of(
         table.places, [](const PlacedCompliance& place) { return place.constant == 0.0; }))
   {
+    std::filesystem::remove(begun);
     throw Error(ErrorCode::BadValue,
       out.string() + ": is not written, as it " + described(table) +
         ", which is all of the body; give smaller cells by --cell, or supports that hold less");
@@ -201,8 +203,7 @@ void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
     table.places.empty() ? void() : writeSealed(begun, table);
     throw Error(ErrorCode::NoSolution, table.places.empty() ? kNoPlaceYet : kStopped);
   }
-  std::filesystem::remove(begun);
-  checkThatItTells(table, plan.out);
+  checkThatItTells(table, plan.out, begun);
   writeSealed(begun, table);
   progress.tell("motion of the whole body, to be drawn");
   if (!addMotion(table, model, surface, interrupt.token()))

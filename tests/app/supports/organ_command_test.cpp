@@ -1,5 +1,6 @@
 #include "data/shapes.h"
 #include "haptics/units.h"
+#include "tests/app/supports/slabs.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/process.h"
 
@@ -63,14 +64,7 @@ TEST(OrganCommand, OfAThinPlateIsThatOfTheLayerOrSaysSo)
   for (const int height : { 3, 5, 8, 15 })
   {
     const auto file = folder.path() / ("plate" + std::to_string(height) + ".obj");
-    std::ofstream plate(file);
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      plate << "v " << ((corner & 1) != 0 ? 30 : -30) << ' ' << ((corner & 2) != 0 ? 25 : -25)
-            << ' ' << ((corner & 4) != 0 ? 0 : -height) << '\n';
-    }
-    plate << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-    plate.close();
+    test::writeBox(file, { -30.0, -25.0, -1.0 * height }, { 30.0, 25.0, 0.0 });
     std::istringstream forces(
       test::runCommand(PALP_PROGRAM " force --law corrected --material linear" + common +
         "--thickness " + std::to_string(height) + "mm")

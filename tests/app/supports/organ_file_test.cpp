@@ -1,3 +1,4 @@
+#include "tests/app/supports/slabs.h"
 #include "tests/support/process.h"
 
 #include <filesystem>
@@ -47,15 +48,7 @@ TEST(OrganFile, IsNotWrittenWhereNoPlaceIsAnswered)
 {
   const test::TemporaryFolder folder;
   const std::filesystem::path plate = folder.path() / "plate.obj";
-  {
-    std::ofstream file(plate);
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      file << "v " << ((corner & 1) != 0 ? 48 : 0) << ' ' << ((corner & 2) != 0 ? 11 : -11) << ' '
-           << ((corner & 4) != 0 ? 0 : -16) << '\n';
-    }
-    file << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-  }
+  test::writeBox(plate, { 0.0, -11.0, -16.0 }, { 48.0, 11.0, 0.0 });
   const auto make = [&](const std::string& cell)
   {
     return test::runCommand(PALP_PROGRAM " organ " + plate.string() +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <fstream>
 
@@ -31,6 +32,24 @@ inline void writeSlabs(const std::filesystem::path& file, int side, int height)
       isWithin(voxel % wide, wide) && isWithin(voxel / wide % wide, wide) && isWithin(z, high);
     out.put(static_cast<char>(isIn ? (z < high / 2 ? 7 : 3) : 0));
   }
+}
+
+/// Writes a box as OBJ.
+/// @param low, high  corners [mm]
+inline void writeBox(
+  const std::filesystem::path& file, const Eigen::Vector3d& low, const Eigen::Vector3d& high)
+{
+  std::ofstream out(file);
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    out << 'v';
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      out << ' ' << ((corner >> axis & 1) != 0 ? high : low)[axis];
+    }
+    out << '\n';
+  }
+  out << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 }
 
 } // namespace palp::test

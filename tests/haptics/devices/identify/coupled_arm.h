@@ -61,9 +61,10 @@ struct CoupledArm
   // moves on under the last torque
   void wait(double duration)
   {
-    for (const double end = time + duration; time < end;)
+    constexpr double kStep = 50e-6; // [s]
+    for (long steps = std::lround(duration / kStep); steps > 0; --steps)
     {
-      step(50e-6);
+      step(kStep);
     }
   }
 
@@ -74,7 +75,7 @@ struct CoupledArm
     const double sent = time;
     const Eigen::Vector3d torques = positionJacobian(shape, heard_).transpose() * force;
     commands_.emplace_back(sent + delay, torques);
-    wait(1e-3 - 25e-6);
+    wait(1e-3);
     const Eigen::Vector3d place = forwardKinematics(shape, angles_);
     furthest = std::max(furthest, place.norm());
     const double count = 2.0 * std::numbers::pi * shape.capstan[0] / shape.body[0] / 2000.0;
