@@ -257,8 +257,7 @@ Contact exactContact(
   {
     return {};
   }
-  contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
-    surface.edgeDistance(contact.center, contact.triangle));
+  measureEdge(contact, surface);
   return contact;
 }
 

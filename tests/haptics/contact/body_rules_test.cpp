@@ -7,6 +7,7 @@
 #include "tests/support/surfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
@@ -66,6 +67,46 @@ TEST(LobeRule, SeesPlatesInAnyAttitudeUnlessTheyLieOnSomething)
   const Surface ball = test::makeSurface(test::ball(40.0_mm, 20));
   const Contact contact = pressed(ball, { 0.0, 0.0, 40.0_mm }, 1.0_mm, -Vector3d::UnitZ());
   EXPECT_TRUE(lobeRule(ball, contact, 2.8_mm, Base::Unset).holds());
+}
+
+// What the law is over finite elements with contact of a block of 50 mm, bonded below, one of whose
+// faces is a slant one (0.5, 1.5 and 3.5 mm deep; B-bar, by another program).
+TEST(LobeRule, SeesAWedgeWhereItYieldsMoreThanAHandNotices)
+{
+  struct Case
+  {
+    double angle;                 // [rad]
+    double place;                 // from the edge [m]
+    std::array<double, 3> excess; // of the law
+  };
+  const Vector3d size(100.0_mm, 100.0_mm, 50.0_mm);
+  for (const Case& one : { Case{ 45.0_deg, 45.0_mm, { 0.128, 0.210, 0.307 } },
+         Case{ 45.0_deg, 58.0_mm, { 0.049, 0.075, 0.096 } },
+         Case{ 60.0_deg, 28.0_mm, { 0.119, 0.193, 0.279 } },
+         Case{ 60.0_deg, 40.0_mm, { 0.050, 0.074, 0.094 } },
+         Case{ 75.0_deg, 20.0_mm, { 0.093, 0.144, 0.200 } },
+         Case{ 75.0_deg, 32.0_mm, { 0.042, 0.057, 0.067 } },
+         Case{ 90.0_deg, 28.0_mm, { 0.034, 0.041, 0.044 } } })
+  {
+    test::Mesh mesh = test::block(size, 20);
+    for (Vector3d& point : mesh.first)
+    {
+      point.x() -= point.z() / std::tan(one.angle) * (0.5 - point.x() / size.x());
+    }
+    const Surface surface = test::makeSurface(std::move(mesh));
+    const Contact contact =
+      pressed(surface, { one.place - 0.5 * size.x(), 0.0, 0.0 }, 1.0_mm, -Vector3d::UnitZ());
+    for (std::size_t i = 0; i < one.excess.size(); ++i)
+    {
+      const double radius = std::array{ 2.25_mm, 3.88_mm, 5.78_mm }.at(i);
+      const Rule rule = lobeRule(surface, contact, radius, Base::Unset);
+      EXPECT_TRUE(rule.holds() || one.excess.at(i) > 0.07) << one.angle << ' ' << one.place;
+      EXPECT_FALSE(rule.holds() && one.excess.at(i) > 0.08) << one.angle << ' ' << one.place;
+      // the slant face may be what lies on something
+      const Rule onBase = lobeRule(surface, contact, radius, Base::Bonded);
+      EXPECT_TRUE(onBase.holds() && (rule.holds() || onBase.fraction() >= Rule::kDoubtful));
+    }
+  }
 }
 
 // By finite elements (B-bar) a column of 40 mm that stands 120 mm high is 1.33 and 1.44 times
