@@ -16,6 +16,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <unistd.h>
 
 namespace palp
 {
@@ -250,7 +251,7 @@ void addBenchCommand(CLI::App& app, const Renderer* pictures)
   command->add_option("--spin", options->spin, "Of --servo: awake before each tick, like 0.05ms")
     ->needs(servo);
   command->add_option("--processor", options->processor, "Of --servo: to stay on, from 0")
-    ->check(CLI::Range(0, 1023))
+    ->check(CLI::Range(0, static_cast<int>(sysconf(_SC_NPROCESSORS_CONF)) - 1))
     ->needs(servo);
   CLI::Option* sweep = command->add_option("--sweep", options->sweep,
     "Instead: what a sweep costs on the disk of this folder, which is made and removed");

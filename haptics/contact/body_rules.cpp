@@ -1,9 +1,13 @@
 #include "haptics/contact/body_rules.h"
 
 #include "haptics/contact/ball/ball_rule.h"
+#include "haptics/surface/ray.h"
+#include "haptics/units.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -12,24 +16,73 @@ namespace palp
 namespace
 {
 
-// How near a contact is to the edge of a sharp wedge, over the distance at which that yields 7 %:
-// by finite elements one of 60 and 45 degrees does 8 and 30 times as much as one of 90, and up to 4
-// times where the wedge's slant face is not all the way below.
-double wedgeFraction(const Contact& contact, double contactRadius) noexcept
+// from a place to where a box ends [m]
+double extentAlong(
+  const BoxTree::Node& box, const Eigen::Vector3d& from, const Eigen::Vector3d& way) noexcept
 {
-  constexpr double kRight = 0.5 * std::numbers::pi;
-  constexpr double kSlimmest = std::numbers::pi / 6.0; // wedge that finite elements were asked of
-  constexpr double kLimit = 0.2;                       // a / distance, at 90 degrees
-  constexpr double kOverSlant = 0.95; // of the wedge's own thickness: it ends deeper than that
-  if (std::isinf(contact.wedgeDistance))
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < box.low.size(); ++k)
   {
-    return 0.0;
+    const auto axis = static_cast<Eigen::Index>(k);
+    const auto end = static_cast<double>(way[axis] > 0.0 ? box.high[k] : box.low[k]);
+    farthest += way[axis] * (end - from[axis]);
   }
-  const double angle = std::clamp(contact.wedgeAngle, kSlimmest, kRight);
-  const double part = contact.thickness / (contact.wedgeDistance * std::tan(angle));
-  const double most = std::pow(kRight / angle, 5);
-  const double factor = part > kOverSlant ? most : std::min(most, 4.0 * part * part);
-  return factor * contactRadius / (kLimit * contact.wedgeDistance);
+  return farthest;
+}
+
+// How near a contact is to where two faces of a wedge would meet, over the distance at which that
+// yields 7 %: by finite elements one of 60 and 45 degrees does 8 and 30 times as much as one of 90.
+double fractionOf(double distance, double angle, double thickness, double contactRadius) noexcept
+{
+  constexpr double kLimit = 0.2; // a / distance, at 90 degrees
+  constexpr double kSlimmest = std::numbers::pi / 6.0;
+  constexpr double kOverSlant = 0.95; // of the wedge's own thickness: its slant face is below
+  constexpr double kOver = 4.0;       // times as much at most where that ends before
+  const double below = thickness / (distance * std::tan(angle));
+  const double most = std::pow(0.5 * std::numbers::pi / std::max(kSlimmest, angle), 5);
+  const double factor = below > kOverSlant ? most : std::min(most, kOver * below * below);
+  return factor * contactRadius / (kLimit * distance);
+}
+
+// The same, by what faces rays meet that leave a contact slantwise; what few meet, as rough places
+// and vessels, does not count.
+double wedgeFraction(const Surface& surface, const Contact& contact, double contactRadius) noexcept
+{
+  constexpr int kRays = 12;
+  constexpr int kFew = 2;
+  constexpr double kDown = units::fromDegrees(40.0);
+  constexpr double kSharp = units::fromDegrees(80.0);
+  constexpr double kCutOff = 1.5; // of what there is of the body, the distance of the edge
+  const Eigen::Vector3d right = contact.normal.unitOrthogonal();
+  const Eigen::Vector3d ahead = contact.normal.cross(right);
+  const BoxTree::Node& all = surface.tree().nodes().front();
+  std::array<double, kRays> fractions{};
+  for (int i = 0; i < kRays; ++i)
+  {
+    const double turn = 2.0 * std::numbers::pi * i / kRays;
+    const Eigen::Vector3d way =
+      std::cos(kDown) * (std::cos(turn) * right + std::sin(turn) * ahead) -
+      std::sin(kDown) * contact.normal;
+    const RayHit hit = rayExit(surface.tree(), contact.center, way);
+    if (hit.triangle < 0)
+    {
+      continue;
+    }
+    const Eigen::Vector3d face =
+      unitNormal(surface.points(), surface.triangles()[static_cast<std::size_t>(hit.triangle)]);
+    const double facing = face.dot(contact.normal);
+    const double angle = std::numbers::pi - std::acos(std::clamp(facing, -1.0, 1.0));
+    const Eigen::Vector3d outward = (face - facing * contact.normal).normalized();
+    const double distance = hit.distance * face.dot(way) / std::sin(angle);
+    const double there = extentAlong(all, contact.center, outward);
+    if (angle < kSharp && distance < kCutOff * there)
+    {
+      fractions[static_cast<std::size_t>(i)] =
+        fractionOf(distance, angle, contact.thickness, contactRadius);
+    }
+  }
+  std::ranges::nth_element(fractions, fractions.begin() + kFew, std::greater());
+  return fractions[kFew];
 }
 
 } // namespace
@@ -65,7 +118,7 @@ Rule lobeRule(
   if (contact.touching())
   {
     const double thickness = contact.thickness;
-    const double wedge = wedgeFraction(contact, contactRadius);
+    const double wedge = wedgeFraction(surface, contact, contactRadius);
     const double lobe =
       std::max({ kUnset, least / (kLobe * thickness), wide / (kPlate * thickness), wedge });
     // that of a half-space below the body is in the law

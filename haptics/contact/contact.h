@@ -19,9 +19,7 @@ struct Contact
   double curvedPart = 1.0; ///< of these that is below the tool, not at an edge beside [-]
   double thickness = std::numeric_limits<double>::infinity(); ///< of the body below [m]
   double hollow = 0.0; ///< part of what lies around above a hollow within the body [-]
-  double edgeDistance = std::numeric_limits<double>::infinity();  ///< to an open or sharp edge [m]
-  double wedgeDistance = std::numeric_limits<double>::infinity(); ///< to the edge of a wedge [m]
-  double wedgeAngle = 0.0;                                        ///< between its faces [rad]
+  double edgeDistance = std::numeric_limits<double>::infinity(); ///< to an open or sharp edge [m]
   double normalSpread = 0.0; ///< of the normals below the tool about their mean, rms [rad]
   double relief = 0.0;       ///< of the nearest place over the even surface it is taken as [m]
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace palp
 {
@@ -60,15 +59,6 @@ void measureShape(Contact& contact, const Surface& surface, const Tip& tip, cons
   contact.curvatureSlope = slopeOf(shape.meanCurvatureSlope);
   contact.spreadSlope = slopeOf(shape.curvatureSpreadSlope);
   contact.thicknessSlope = slopeOf(shape.thicknessSlope);
-}
-
-void measureEdge(Contact& contact, const Surface& surface) noexcept
-{
-  contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
-    surface.edgeDistance(contact.center, contact.triangle));
-  const SharpEdges::Nearest wedge = surface.shape().nearestWedge(contact.center);
-  contact.wedgeDistance = static_cast<double>(wedge.distance);
-  contact.wedgeAngle = std::numbers::pi - static_cast<double>(wedge.turn);
 }
 
 } // namespace palp

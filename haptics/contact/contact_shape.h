@@ -54,8 +54,4 @@ void measureNormal(Contact& contact, const ToolPose& pose, const NormalSum& norm
 void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ShapeBall& ball,
   CurvatureOf of) noexcept;
 
-/// How near a contact is to an edge, and to a wedge.
-/// @realtime  pure; no allocation, no lock, no exception
-void measureEdge(Contact& contact, const Surface& surface) noexcept;
-
 } // namespace palp

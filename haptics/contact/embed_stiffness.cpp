@@ -35,7 +35,7 @@ constexpr double kPerThickness = 1.7;  // places of one kind in a doubling of th
 constexpr double kPerCurvature = 4.0;  // and of the curvature, over that of the tool
 
 // What lies below places that are nearly alike.
-struct Below
+struct WeightsBelow
 {
   HomogeneousPress press;
   EnergyWeights weights;
@@ -145,7 +145,7 @@ std::vector<double> logEnergies(const HomogeneousPress& press, const EnergyWeigh
 
 // at a point that lies below a place as it would on a flat body
 PlacedStiffness placedAt(
-  const Looked& place, const Below& below, const ModulusAt& modulus, double young)
+  const Looked& place, const WeightsBelow& below, const ModulusAt& modulus, double young)
 {
   const Eigen::Vector3d& position = place.point.position;
   const Eigen::Vector3d& normal = place.point.normal;
@@ -196,13 +196,14 @@ std::shared_ptr<const StiffnessField> embedStiffness(
     }
   }
   const std::vector<ContactGeometry> kinds = kindsOf(looked, base);
-  std::vector<std::unique_ptr<const Below>> below(kinds.size());
+  std::vector<std::unique_ptr<const WeightsBelow>> below(kinds.size());
   inParallel(kinds.size(),
     [&](std::size_t i)
     {
       HomogeneousPress press(law, kinds[i], kDeepest * base);
       EnergyWeights weights(press);
-      below[i] = std::make_unique<const Below>(Below{ std::move(press), std::move(weights) });
+      below[i] =
+        std::make_unique<const WeightsBelow>(WeightsBelow{ std::move(press), std::move(weights) });
     });
   std::vector<PlacedStiffness> places(looked.size());
   inParallel(looked.size(),

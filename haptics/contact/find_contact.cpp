@@ -257,7 +257,8 @@ Contact exactContact(
   {
     return {};
   }
-  measureEdge(contact, surface);
+  contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
+    surface.edgeDistance(contact.center, contact.triangle));
   return contact;
 }
 

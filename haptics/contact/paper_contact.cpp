@@ -1,7 +1,5 @@
 #include "haptics/contact/paper_contact.h"
 
-#include "haptics/contact/contact_shape.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -79,7 +77,8 @@ Contact paperContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   contact.height = -depth;
   contact.rising = contact.normal;
   contact.tilt = std::acos(std::clamp(-pose.axis.dot(contact.normal), -1.0, 1.0));
-  measureEdge(contact, surface);
+  contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
+    surface.edgeDistance(contact.center, contact.triangle));
   return contact;
 }
 

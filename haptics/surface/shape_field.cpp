@@ -50,25 +50,25 @@ double leastCell(const BoxTree& tree)
 }
 
 // Leaves out sides that turn little of what is around does: facets of a cylinder beside its rim.
-// One that is sharp is no crease any more. Of each, what the surface turns there.
+// One that is sharp is no crease any more.
 // @param bend  of what is around, over its area [1/m]
 template <typename Side>
 void keepSharp(std::vector<Side>& sides, const Eigen::Matrix3f& bend, const Eigen::Vector3f& normal,
   float around)
 {
-  for (Side& side : sides)
+  const auto isSharp = [&](const Side& side)
   {
-    const auto& [from, to] = side.edge.ends;
-    const Eigen::Vector3f along = (to - from).normalized();
+    const Eigen::Vector3f along = (side.ends[1] - side.ends[0]).normalized();
     const Eigen::Vector3f across = along.cross(normal).normalized();
     const float own = std::max(1e-9F, across.dot(bend * across));
     const float other = std::max(0.0F, along.dot(bend * along));
-    const float whole = 2.0F * side.turn;
-    const bool isSharp = whole >= kSharp || own * bend.trace() * around >= kSharp * (own + other);
-    side.edge.turn = whole >= kSharp ? whole : isSharp || side.isCrease ? own * around : 0.0F;
-    side.isCrease = side.isCrease && !isSharp;
+    return 2.0F * side.turn >= kSharp || own * bend.trace() * around >= kSharp * (own + other);
+  };
+  std::erase_if(sides, [&](const Side& side) { return !side.isCrease && !isSharp(side); });
+  for (Side& side : sides)
+  {
+    side.isCrease = side.isCrease && !isSharp(side);
   }
-  std::erase_if(sides, [](const Side& side) { return side.edge.turn == 0.0F; });
 }
 
 } // namespace
@@ -124,8 +124,8 @@ void ShapeField::cutUp(const BoxTree& tree, const LinkedTriangles& mesh, const C
           piece.sums.bend += even ? Eigen::Matrix3f::Zero().eval()
                                   : ((next - p[k]).norm() * bend[side]).cast<float>().eval();
           pieces.sides.push_back(
-            { { { (p[k] - origin_).cast<float>(), (next - origin_).cast<float>() }, 0.0F },
-              turns[side], isCrease[side] });
+            { { (p[k] - origin_).cast<float>(), (next - origin_).cast<float>() }, turns[side],
+              isCrease[side] });
         }
       }
       piece.sides[1] = static_cast<int>(pieces.sides.size());
@@ -320,13 +320,13 @@ bool ShapeField::addTurning(std::span<const Side> sides, float least,
   float most = 0.0F;
   for (const Side& side : sides)
   {
-    sum += side.turn * (side.edge.ends[1] - side.edge.ends[0]).norm();
+    sum += side.turn * (side.ends[1] - side.ends[0]).norm();
     most = std::max(most, side.turn);
   }
   for (const Side& side : sides)
   {
     const bool isTurning = sum > least && side.turn > kOwnTurn * most;
-    side.isCrease ? creases.push_back(side.edge) : isTurning ? sharp.push_back(side.edge) : void();
+    side.isCrease ? creases.push_back(side.ends) : isTurning ? sharp.push_back(side.ends) : void();
   }
   return sum > least || std::ranges::any_of(sides, &Side::isCrease);
 }

@@ -58,20 +58,13 @@ public:
   [[nodiscard]] double edgeDistance(const Eigen::Vector3d& position) const noexcept
   {
     return std::min(sharpEdgeDistance(position),
-      static_cast<double>(creases_.nearest((position - origin_).cast<float>()).distance));
+      static_cast<double>(creases_.distance((position - origin_).cast<float>())));
   }
 
-  /// The distance without creases that turn less, and without valleys.
+  /// The same without creases that turn less, and without valleys.
   [[nodiscard]] double sharpEdgeDistance(const Eigen::Vector3d& position) const noexcept
   {
-    return static_cast<double>(edges_.nearest((position - origin_).cast<float>()).distance);
-  }
-
-  /// The nearest edge of a wedge: of less than 80 degrees.
-  [[nodiscard]] SharpEdges::Nearest nearestWedge(const Eigen::Vector3d& position) const noexcept
-  {
-    constexpr float kWedge = 1.75F; // [rad] that the surface turns there
-    return edges_.nearest((position - origin_).cast<float>(), kWedge);
+    return static_cast<double>(edges_.distance((position - origin_).cast<float>()));
   }
 
   /// Smallest radius over which an average is smooth [m].
@@ -93,7 +86,7 @@ private:
   // that two triangles have in common, or a part of it
   struct Side
   {
-    SharpEdges::Segment edge; // from the origin, with what turns within a few cells of it
+    SharpEdges::Segment ends; // from the origin [m]
     float turn;               // of the surface, half of it each, convex positive [rad]
     bool isCrease;
   };

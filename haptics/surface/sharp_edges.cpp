@@ -1,6 +1,7 @@
 #include "haptics/surface/sharp_edges.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace palp
@@ -12,16 +13,15 @@ constexpr std::size_t kDepth = 40; // of a tree that is halved, for more than fi
 
 Eigen::Vector3f middleOf(const SharpEdges::Segment& segment)
 {
-  return 0.5F * (segment.ends[0] + segment.ends[1]);
+  return 0.5F * (segment[0] + segment[1]);
 }
 
 float distanceTo(const SharpEdges::Segment& segment, const Eigen::Vector3f& position) noexcept
 {
-  const auto& [from, to] = segment.ends;
-  const Eigen::Vector3f along = to - from;
+  const Eigen::Vector3f along = segment[1] - segment[0];
   const float squared = along.squaredNorm();
-  const float at = squared > 0.0F ? along.dot(position - from) / squared : 0.0F;
-  return (from + std::clamp(at, 0.0F, 1.0F) * along - position).norm();
+  const float at = squared > 0.0F ? along.dot(position - segment[0]) / squared : 0.0F;
+  return (segment[0] + std::clamp(at, 0.0F, 1.0F) * along - position).norm();
 }
 
 } // namespace
@@ -37,17 +37,15 @@ SharpEdges::SharpEdges(std::vector<Segment> segments)
 
 void SharpEdges::build(std::span<Segment> segments)
 {
-  Eigen::Vector3f low = segments.front().ends[0];
+  Eigen::Vector3f low = segments.front()[0];
   Eigen::Vector3f high = low;
-  float turn = 0.0F;
   for (const Segment& segment : segments)
   {
-    low = low.cwiseMin(segment.ends[0]).cwiseMin(segment.ends[1]);
-    high = high.cwiseMax(segment.ends[0]).cwiseMax(segment.ends[1]);
-    turn = std::max(turn, segment.turn);
+    low = low.cwiseMin(segment[0]).cwiseMin(segment[1]);
+    high = high.cwiseMax(segment[0]).cwiseMax(segment[1]);
   }
   const std::size_t self = nodes_.size();
-  nodes_.push_back({ 0.5F * (low + high), 0.5F * (high - low).norm(), turn, 0, segments.front() });
+  nodes_.push_back({ 0.5F * (low + high), 0.5F * (high - low).norm(), 0, segments.front() });
   if (segments.size() == 1)
   {
     return;
@@ -63,9 +61,9 @@ void SharpEdges::build(std::span<Segment> segments)
   build(segments.subspan(half));
 }
 
-SharpEdges::Nearest SharpEdges::nearest(const Eigen::Vector3f& position, float turn) const noexcept
+float SharpEdges::distance(const Eigen::Vector3f& position) const noexcept
 {
-  Nearest nearest;
+  float nearest = std::numeric_limits<float>::infinity();
   const auto atLeast = [&](std::size_t i)
   { return (nodes_[i].center - position).norm() - nodes_[i].radius; };
   std::array<std::size_t, kDepth> stack{};
@@ -73,15 +71,14 @@ SharpEdges::Nearest SharpEdges::nearest(const Eigen::Vector3f& position, float t
   while (waiting > 0)
   {
     const std::size_t i = stack[--waiting];
-    if (atLeast(i) >= nearest.distance || nodes_[i].turn < turn)
+    if (atLeast(i) >= nearest)
     {
       continue;
     }
     const Node& node = nodes_[i];
     if (node.right == 0)
     {
-      const float distance = distanceTo(node.segment, position);
-      nearest = distance < nearest.distance ? Nearest{ distance, node.segment.turn } : nearest;
+      nearest = std::min(nearest, distanceTo(node.segment, position));
       continue;
     }
     std::size_t near = i + 1;

@@ -132,8 +132,8 @@ std::unique_ptr<Driver> openPhd1(const std::string& rest)
 // by HID, or in lines of text where the path is a serial port
 std::unique_ptr<Driver> openWooden(const std::string& rest)
 {
-  requirePath("wooden", rest);
   const auto [path, configuration] = boardParts(rest);
+  requirePath("wooden", path);
   const auto published = publishedArm(configuration.empty() ? kUsualArm : configuration);
   if (!published && !std::filesystem::exists(configuration))
   {

@@ -117,8 +117,9 @@ TEST(BenchCommand, RefusesAGateThatIsNoReport)
 
 TEST(BenchCommand, RefusesWhatIsNoTimeAndNoNumber)
 {
-  for (const char* arguments : { "--servo -5s", "--servo 0s", "--servo 1e300s", "--most -5",
-         "--slack nan --most 0", "--slack 0.5" })
+  for (const char* arguments :
+    { "--servo -5s", "--servo 0s", "--servo 1e300s", "--most -5", "--slack nan --most 0",
+      "--slack 0.5", "--servo 1s --processor 1023", "--servo 1s --processor -1" })
   {
     const test::Finished finished = bench(arguments);
     EXPECT_EQ(finished.code, 2) << arguments;

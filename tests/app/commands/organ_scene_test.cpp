@@ -1,5 +1,6 @@
 #include "haptics/units.h"
 #include "tests/app/commands/run_rig.h"
+#include "tests/support/obj_file.h"
 #include "tests/support/surfaces.h"
 
 #include <sstream>
@@ -48,16 +49,12 @@ protected:
   // of 30 mm
   void writeBall(const std::string& name, int splits, double left) const
   {
-    const test::Mesh mesh = test::ball(30.0, splits);
-    std::ofstream file(out(name));
-    for (const Eigen::Vector3d& x : mesh.first)
+    test::Mesh mesh = test::ball(30.0_mm, splits);
+    for (Eigen::Vector3d& point : mesh.first)
     {
-      file << "v " << x.x() + left << ' ' << x.y() << ' ' << x.z() << '\n';
+      point.x() += left;
     }
-    for (const auto& [i, j, k] : mesh.second)
-    {
-      file << "f " << i + 1 << ' ' << j + 1 << ' ' << k + 1 << '\n';
-    }
+    test::writeObj(out(name), mesh.first, mesh.second);
   }
 
   // a table without its comments
@@ -154,8 +151,8 @@ TEST_F(OrganScene, OneThatIsFarAndOneThatIsSeenThroughChangeNoByteOfTheSamples)
 // a ball of many points, to look at, and of few, to feel
 TEST_F(OrganScene, IsFeltByItsHapticLevelAndTellsHowFarThatIs)
 {
-  writeBall("fine.obj", 40, -30.0);
-  writeBall("few.obj", 6, -30.0);
+  writeBall("fine.obj", 40, -30.0_mm);
+  writeBall("few.obj", 6, -30.0_mm);
   const auto ball = [](const std::string& files)
   { return R"({"name": "left", "unit": "mm", )" + files + "}"; };
   const Finished both = press(ball(R"("file": "fine.obj", "haptic": "few.obj")"), "both");
@@ -175,8 +172,8 @@ TEST_F(OrganScene, IsFeltByItsHapticLevelAndTellsHowFarThatIs)
 // which an edit of the scene may swap
 TEST_F(OrganScene, WarnsWhereTheLevelToFeelIsOfAnotherOrgan)
 {
-  writeBall("left.obj", 10, -30.0);
-  writeBall("right.obj", 10, -20.0);
+  writeBall("left.obj", 10, -30.0_mm);
+  writeBall("right.obj", 10, -20.0_mm);
   const std::string warning = "warning: the surface to feel is no level of the one shown";
   const Finished shown =
     press(R"({"name": "left", "unit": "mm", "file": "left.obj", "haptic": "right.obj"})", "shown");

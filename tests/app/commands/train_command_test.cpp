@@ -1,5 +1,6 @@
 #include "data/shapes.h"
 #include "tests/support/csv_table.h"
+#include "tests/support/obj_file.h"
 #include "tests/support/process.h"
 
 #include <algorithm>
@@ -27,16 +28,8 @@ class TrainCommand : public ::testing::Test
 protected:
   TrainCommand()
   {
-    std::ofstream block(folder() / "block.obj");
     const Mesh mesh = makeBox({ 200.0, 200.0, 50.0 }, 5.0); // in mm, as the file
-    for (const Eigen::Vector3d& point : mesh.points)
-    {
-      block << "v " << point.x() << ' ' << point.y() << ' ' << point.z() << '\n';
-    }
-    for (const Triangle& triangle : mesh.triangles)
-    {
-      block << "f " << triangle[0] + 1 << ' ' << triangle[1] + 1 << ' ' << triangle[2] + 1 << '\n';
-    }
+    test::writeObj(folder() / "block.obj", mesh.points, mesh.triangles, Eigen::Vector3d::Ones());
     std::ofstream path(folder() / "scan.csv");
     path << "time_s,x_mm,y_mm,z_mm\n0,-75,-75,5\n";
     double time = 0.1;

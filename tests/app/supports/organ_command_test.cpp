@@ -2,6 +2,7 @@
 #include "haptics/units.h"
 #include "tests/app/supports/slabs.h"
 #include "tests/support/csv_table.h"
+#include "tests/support/obj_file.h"
 #include "tests/support/process.h"
 
 #include <algorithm>
@@ -259,16 +260,7 @@ TEST(OrganCommand, WhatIsFarFromTheToolMovesAsTheBodyDoes)
   const Eigen::Vector3d size(100.0_mm, 30.0_mm, 16.0_mm);
   const Mesh box = makeBox(size, 4.0_mm);
   const auto file = folder.path() / "lobe.obj";
-  std::ofstream lobe(file);
-  for (const Eigen::Vector3d& point : box.points)
-  {
-    lobe << "v " << 1e3 * point.transpose() << '\n';
-  }
-  for (const auto& [a, b, c] : box.triangles)
-  {
-    lobe << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
-  }
-  lobe.close();
+  test::writeObj(file, box.points, box.triangles);
   const std::string organ = " --organ " + (folder.path() / "lobe.organ").string();
   const test::Finished made = test::runCommand(PALP_PROGRAM " organ " + file.string() +
     " --unit mm --cell 5mm --poisson 0.3 --support bonded:box:-60,-60,-60:-49.9,60,60 --out" +

@@ -3,6 +3,7 @@
 #include "data/shapes.h"
 #include "haptics/files/csv_text.h"
 #include "tests/app/window/window_rig.h"
+#include "tests/support/obj_file.h"
 
 #include <QDockWidget>
 #include <QFileDialog>
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -89,20 +89,10 @@ inline Mesh broken(const Faults& faults)
   return mesh;
 }
 
-// an OBJ in a unit, with axes that are turned
 inline void write(const std::filesystem::path& file, const Mesh& mesh,
   const Eigen::Vector3d& scale = Eigen::Vector3d::Constant(1e3), const char* head = "")
 {
-  std::ofstream out(file);
-  out << head;
-  for (const Eigen::Vector3d& point : mesh.points)
-  {
-    out << "v " << point.cwiseProduct(scale).transpose() << '\n';
-  }
-  for (const auto& [a, b, c] : mesh.triangles)
-  {
-    out << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
-  }
+  test::writeObj(file, mesh.points, mesh.triangles, scale, head);
 }
 
 using Rows = std::vector<std::vector<std::string>>;

@@ -5,6 +5,7 @@
 #include "haptics/units.h"
 #include "tests/app/supports/slabs.h"
 #include "tests/app/window/window_rig.h"
+#include "tests/support/obj_file.h"
 
 #include <QComboBox>
 #include <QDockWidget>
@@ -34,16 +35,7 @@ protected:
   Supports()
   {
     const Mesh box = makeBox({ 64.0_mm, 64.0_mm, 20.0_mm }, 5.0_mm);
-    std::ofstream out(folder_.path() / "block.obj");
-    for (const Eigen::Vector3d& point : box.points)
-    {
-      out << "v " << (1e3 * point).transpose() << '\n';
-    }
-    for (const auto& [a, b, c] : box.triangles)
-    {
-      out << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
-    }
-    out.close();
+    test::writeObj(folder_.path() / "block.obj", box.points, box.triangles);
     EXPECT_TRUE(window_->openFile(path("block.obj")));
     window_->findChild<QAction*>("supportsAction")->trigger();
     panel_ = window_->findChild<SupportPanel*>();

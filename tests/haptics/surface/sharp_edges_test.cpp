@@ -40,34 +40,6 @@ TEST(SharpEdges, MeasuresTheDistanceToASharpEdge)
   }
 }
 
-// of less than 80 degrees between its faces, where other edges are nearer, and in a corner, too
-TEST(SharpEdges, TellHowFarAWedgeIsAndHowSharp)
-{
-  for (const double angle : { 30.0_deg, 45.0_deg, 60.0_deg, 75.0_deg, 90.0_deg })
-  {
-    for (const int n : { 1, 7, 40 })
-    {
-      test::Mesh mesh = test::block({ 0.1, 0.1, 0.05 }, n);
-      for (Eigen::Vector3d& point : mesh.first)
-      {
-        point.x() -= point.z() / std::tan(angle) * (0.5 - point.x() / 0.1);
-      }
-      const Surface wedge = test::makeSurface(std::move(mesh));
-      for (const Eigen::Vector3d& at : { Eigen::Vector3d(-40.0_mm, 3.0_mm, 0.0),
-             Eigen::Vector3d(10.0_mm, 45.0_mm, 0.0), Eigen::Vector3d(-49.0_mm, -49.0_mm, 0.0) })
-      {
-        const auto [distance, turn] = wedge.shape().nearestWedge(at);
-        EXPECT_EQ(std::isinf(distance), angle > 80.0_deg) << angle << ' ' << n;
-        if (angle < 80.0_deg)
-        {
-          EXPECT_NEAR(distance, at.x() + 50.0_mm, 1.0_um) << angle << ' ' << n;
-          EXPECT_NEAR(turn, std::numbers::pi - angle, 1e-4) << angle << ' ' << n;
-        }
-      }
-    }
-  }
-}
-
 // facets of a cylinder turn by 15 degrees where they meet, also beside its rim, by however few
 // triangles
 TEST(SharpEdges, CountsNoFacetOfACylinderAsAnEdgeBesideItsRim)

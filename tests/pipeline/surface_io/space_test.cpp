@@ -1,6 +1,7 @@
 #include "data/shapes.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
+#include "tests/support/obj_file.h"
 #include "tests/support/process.h"
 
 #include <algorithm>
@@ -63,17 +64,9 @@ protected:
 
   std::filesystem::path writeText(const std::string& name, const std::string& head)
   {
-    std::ofstream out(folder_.path() / name);
-    out << head;
-    for (const Vector3d& p : kCorners)
-    {
-      out << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
-    }
-    for (const Triangle& t : kFaces)
-    {
-      out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
-    }
-    return folder_.path() / name;
+    const std::filesystem::path file = folder_.path() / name;
+    test::writeObj(file, kCorners, kFaces, Vector3d::Ones(), head);
+    return file;
   }
 
   // those of all kinds, as 3D Slicer writes them
