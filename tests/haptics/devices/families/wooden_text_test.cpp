@@ -211,6 +211,18 @@ TEST(WoodenText, ItsEndIsToldAndWhatIsNoPortIsRefusedInOneSentence)
       EXPECT_EQ(std::string(error.what()).find(path), 0U) << error.what();
     }
   }
+  for (const char* noPath : { "", ",v2015" })
+  {
+    try
+    {
+      (void)openDriver(std::string("wooden:") + noPath);
+      ADD_FAILURE() << noPath;
+    }
+    catch (const Error& error)
+    {
+      EXPECT_EQ(error.code(), ErrorCode::BadValue) << error.what();
+    }
+  }
 }
 
 TEST(WoodenText, ItsPortsAreFoundWithoutOpeningOne)
