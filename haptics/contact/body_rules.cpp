@@ -113,8 +113,7 @@ Rule lobeRule(
     "as high and slim as a column, or nobody says what is below and it is a wedge, or thinner than "
     "half of the body or 0.4 of its extent: what nothing holds beside or below gives way, and is "
     "felt softer; --base says that it lies on something rigid, palp organ and --organ take all of "
-    "it into "
-    "account" };
+    "it into account" };
   if (contact.touching())
   {
     const double thickness = contact.thickness;
