@@ -13,6 +13,7 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 namespace palp
 {
@@ -210,9 +211,8 @@ OrganMotionModes motionIn(const std::filesystem::path& file, const NumberTable& 
 }
 
 // a file of something else, of another version or cut short says so before any number is read
-void checkVersion(const std::filesystem::path& file)
+void checkVersion(const std::filesystem::path& file, const std::string& text)
 {
-  const std::string text = readText(file, "an organ file");
   const std::string_view line = std::string_view(text).substr(0, text.find('\n'));
   if (!line.starts_with(kFirst))
   {
@@ -298,8 +298,9 @@ void writeOrganTable(const std::filesystem::path& file, const OrganTable& table)
 
 OrganTable readOrganTable(const std::filesystem::path& file)
 {
-  checkVersion(file);
-  const NumberTable numbers = NumberTable::readFinite(file, kHeader);
+  std::string text = readText(file, "an organ file");
+  checkVersion(file, text);
+  const NumberTable numbers = NumberTable::finiteIn(std::move(text), file, kHeader);
   OrganTable table;
   table.mesh = textOf(file, numbers, "mesh");
   table.mesh.erase(0, table.mesh.starts_with(", ") ? 2 : 0); // as it was written first

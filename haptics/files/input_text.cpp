@@ -50,6 +50,7 @@ std::string readText(const std::filesystem::path& file, const std::string& what)
   const Descriptor in(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   std::string text;
   std::vector<char> piece(1 << 16);
+  text.reserve(std::min(static_cast<std::size_t>(is.st_size), kMost));
   for (ssize_t count = 1; count > 0;)
   {
     if (std::max(text.size(), static_cast<std::size_t>(is.st_size)) > kMost)

@@ -17,6 +17,8 @@ namespace palp
 namespace
 {
 
+constexpr const char* kWhat = "a CSV file";
+
 std::vector<std::string> columnsIn(const std::string& line)
 {
   std::vector<std::string> names = csvFields(line);
@@ -65,9 +67,9 @@ std::vector<double> parseLine(
   return values;
 }
 
-NumberTable readRows(const std::filesystem::path& file, const ChooseColumns& choose)
+NumberTable rowsIn(std::string text, const std::filesystem::path& file, const ChooseColumns& choose)
 {
-  std::istringstream stream(readText(file, "a CSV file"));
+  std::istringstream stream(std::move(text));
   NumberTable table;
   Header header;
   std::vector<std::size_t> chosen;
@@ -104,6 +106,26 @@ NumberTable readRows(const std::filesystem::path& file, const ChooseColumns& cho
     }
   }
   return table;
+}
+
+NumberTable readRows(const std::filesystem::path& file, const ChooseColumns& choose)
+{
+  return rowsIn(readText(file, kWhat), file, choose);
+}
+
+ChooseColumns allUnder(const std::string& header)
+{
+  return [header](const Header& found)
+  {
+    if (found.line != header)
+    {
+      throw Error(
+        ErrorCode::BadFile, inQuotes(found.line) + " is not the header; begin with " + header);
+    }
+    std::vector<std::size_t> all(found.names.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  };
 }
 
 void refuseInfinite(const NumberTable& table, const std::filesystem::path& file)
@@ -164,23 +186,18 @@ std::string where(const std::filesystem::path& file, int line)
 
 NumberTable NumberTable::read(const std::filesystem::path& file, const std::string& header)
 {
-  return readRows(file,
-    [&header](const Header& found)
-    {
-      if (found.line != header)
-      {
-        throw Error(
-          ErrorCode::BadFile, inQuotes(found.line) + " is not the header; begin with " + header);
-      }
-      std::vector<std::size_t> all(found.names.size());
-      std::iota(all.begin(), all.end(), 0);
-      return all;
-    });
+  return readRows(file, allUnder(header));
 }
 
 NumberTable NumberTable::readFinite(const std::filesystem::path& file, const std::string& header)
 {
-  NumberTable table = read(file, header);
+  return finiteIn(readText(file, kWhat), file, header);
+}
+
+NumberTable NumberTable::finiteIn(
+  std::string text, const std::filesystem::path& file, const std::string& header)
+{
+  NumberTable table = rowsIn(std::move(text), file, allUnder(header));
   refuseInfinite(table, file);
   return table;
 }

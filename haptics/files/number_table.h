@@ -30,6 +30,10 @@ struct NumberTable
   [[nodiscard]] static NumberTable readFinite(
     const std::filesystem::path& file, const std::string& header);
 
+  /// As readFinite, of what a file holds.
+  [[nodiscard]] static NumberTable finiteIn(
+    std::string text, const std::filesystem::path& file, const std::string& header);
+
   /// Columns by their names, in the order asked for, wherever they stand among others, which may
   /// hold words.
   /// @throws Error  BadFile: as readFinite; a column that is missing

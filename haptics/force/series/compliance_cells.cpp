@@ -33,15 +33,15 @@ ComplianceField::Range ComplianceField::near(const Eigen::Vector3d& place) const
 // each cell knows every place that reaches into it, so that a contact looks at one cell only
 void ComplianceField::sortIntoCells()
 {
-  std::vector<std::pair<Range*, std::uint32_t>> reached;
-  for (std::uint32_t i = 0; i < places_.size(); ++i)
+  constexpr std::size_t kCells = 8; // that a place brings along, about
+  cells_.reserve(kCells * places_.size());
+  for (const Place& place : places_)
   {
-    forCellsWithin(places_[i].position.cast<double>(),
+    forCellsWithin(place.position.cast<double>(),
       [&](Range& cell)
       {
         ++cell.last;
-        cell.isBesideEdge |= places_[i].beside > 0.0F;
-        reached.emplace_back(&cell, i);
+        cell.isBesideEdge |= place.beside > 0.0F;
       });
   }
   std::uint32_t count = 0;
@@ -52,9 +52,10 @@ void ComplianceField::sortIntoCells()
     cell.last = first;
   }
   near_.resize(count);
-  for (const auto& [cell, i] : reached)
+  for (std::uint32_t i = 0; i < places_.size(); ++i)
   {
-    near_[cell->last++] = i;
+    forCellsWithin(
+      places_[i].position.cast<double>(), [&](Range& cell) { near_[cell.last++] = i; });
   }
 }
 
@@ -62,18 +63,27 @@ template <typename Visit>
 void ComplianceField::forCellsWithin(const Eigen::Vector3d& position, const Visit& visit)
 {
   const int around = static_cast<int>(std::ceil(reach_ / cell_));
-  const Cell middle = cellOf(position);
   const int side = 2 * around + 1;
-  for (int k = 0; k < side * side * side; ++k)
+  const Cell middle = cellOf(position);
+  Eigen::Array3Xd gaps(3, side); // along each axis to the cells of each slab, squared
+  for (int k = 0; k < side; ++k)
   {
-    const Cell cell{ middle[0] + k % side - around, middle[1] + k / side % side - around,
-      middle[2] + k / (side * side) - around };
-    const Eigen::Vector3d low = cell_ * Eigen::Vector3d(cell[0], cell[1], cell[2]);
-    const Eigen::Vector3d nearest =
-      position.cwiseMax(low).cwiseMin(low + Eigen::Vector3d::Constant(cell_));
-    if ((nearest - position).squaredNorm() < reach_ * reach_)
+    const Eigen::Array3d low =
+      cell_ * (Eigen::Array3d(middle[0], middle[1], middle[2]) + (k - around));
+    gaps.col(k) = (low - position.array()).max(position.array() - low - cell_).max(0.0).square();
+  }
+  for (int x = 0; x < side; ++x)
+  {
+    for (int y = 0; y < side; ++y)
     {
-      visit(cells_[keyOf(cell)]);
+      for (int z = 0; z < side; ++z)
+      {
+        if (gaps(0, x) + gaps(1, y) + gaps(2, z) < reach_ * reach_)
+        {
+          visit(cells_[keyOf(
+            { middle[0] + x - around, middle[1] + y - around, middle[2] + z - around })]);
+        }
+      }
     }
   }
 }
