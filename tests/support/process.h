@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 #include <sys/wait.h>
+#include <vector>
 
 namespace palp::test
 {
@@ -17,6 +18,19 @@ struct Finished
   std::string out; ///< standard output
   std::string err; ///< standard error
 };
+
+/// What a program said in lines, without those that tell how far it is, as it does of what takes
+/// long.
+inline std::vector<std::string> sentences(const Finished& finished)
+{
+  std::vector<std::string> all;
+  std::istringstream lines(finished.err);
+  for (std::string line; std::getline(lines, line);)
+  {
+    line.starts_with("palp: ") && line.ends_with(" s") ? void() : all.push_back(line);
+  }
+  return all;
+}
 
 inline std::string readAll(const std::filesystem::path& file)
 {

@@ -233,7 +233,7 @@ TEST_F(FitCommand, RefusesBadInputInOneSentence)
     const test::Finished run = fit(std::string(arguments) + " --tip sphere:4mm --no-picture");
     EXPECT_EQ(run.code, 2) << arguments;
     EXPECT_EQ(run.out, "") << arguments;
-    EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
+    EXPECT_EQ(test::sentences(run).size(), 1U) << run.err;
     EXPECT_NE(run.err.find(sentence), std::string::npos) << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out")) << arguments;
   }

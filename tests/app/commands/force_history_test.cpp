@@ -166,7 +166,7 @@ void expectRefusal(const Finished& finished, const std::string& what)
 {
   EXPECT_EQ(finished.code, 2) << what;
   EXPECT_NE(finished.err.find(what), std::string::npos) << finished.err;
-  EXPECT_EQ(std::ranges::count(finished.err, '\n'), 1) << finished.err;
+  EXPECT_EQ(test::sentences(finished).size(), 1U) << finished.err;
 }
 
 TEST(ForceHistory, RefusesTermsThatNoTissueHas)

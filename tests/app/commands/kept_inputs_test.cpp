@@ -49,7 +49,7 @@ protected:
       run.err.find(name + ": is read by this run, which would replace it"), std::string::npos)
       << arguments << '\n'
       << run.err;
-    EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
+    EXPECT_EQ(test::sentences(run).size(), 1U) << run.err;
     EXPECT_EQ(test::readAll(out_ / name), before) << arguments;
   }
 

@@ -40,7 +40,7 @@ protected:
       " && ulimit -v 4000000 && timeout 20 " PALP_PROGRAM " " + arguments);
     EXPECT_EQ(run.code, 2) << arguments << '\n' << run.err;
     EXPECT_TRUE(run.err.starts_with("palp: ")) << arguments << '\n' << run.err;
-    EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << arguments << '\n' << run.err;
+    EXPECT_EQ(test::sentences(run).size(), 1U) << arguments << '\n' << run.err;
     EXPECT_EQ(run.err.find("memory"), std::string::npos) << arguments << '\n' << run.err;
   }
 

@@ -90,7 +90,7 @@ TEST(Program, WithoutItsSiblingsNamesTheMissingOneAndGoesOnWithoutPictures)
     EXPECT_NE(
       refused.err.find("/bin/" + std::string(sibling) + ": cannot be started"), std::string::npos)
       << refused.err;
-    EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+    EXPECT_EQ(test::sentences(refused).size(), 1U) << refused.err;
   }
   EXPECT_EQ(run(experiment + " --no-picture").code, 0);
 }
@@ -107,7 +107,7 @@ TEST(Program, RefusesAScaleAClutchOrHandsThatNoDeviceHas)
     const Finished finished = palp(std::string("view ") + options);
     EXPECT_EQ(finished.code, 2) << options;
     EXPECT_NE(finished.err.find(fix), std::string::npos) << finished.err;
-    EXPECT_EQ(std::ranges::count(finished.err, '\n'), 1) << finished.err;
+    EXPECT_EQ(test::sentences(finished).size(), 1U) << finished.err;
   }
 }
 

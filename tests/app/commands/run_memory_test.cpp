@@ -100,7 +100,7 @@ TEST_F(RunCommand, RefusesThemOfTheOtherLawsAndOutOfRange)
     const Finished finished = press("--no-picture " + options, "out");
     EXPECT_EQ(finished.code, 2) << options;
     EXPECT_NE(finished.err.find(what), std::string::npos) << finished.err;
-    EXPECT_EQ(std::ranges::count(finished.err, '\n'), 1) << finished.err;
+    EXPECT_EQ(test::sentences(finished).size(), 1U) << finished.err;
   };
   refused("--friction 0.3", "--friction: the law 'paper' knows none");
   refused("--law exact --relaxation 0.5:1s", "--relaxation: the law 'exact' knows none");

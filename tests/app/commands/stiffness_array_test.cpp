@@ -115,7 +115,7 @@ TEST_F(StiffnessArray, IsOfTheBodysSurfaceInItsFrameAndUnit)
       std::string::npos)
       << finished.err;
     EXPECT_NE(finished.err.find("in the frame and the unit of the body"), std::string::npos);
-    EXPECT_EQ(std::ranges::count(finished.err, '\n'), 1) << finished.err;
+    EXPECT_EQ(test::sentences(finished).size(), 1U) << finished.err;
   }
 }
 

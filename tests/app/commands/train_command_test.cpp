@@ -207,7 +207,7 @@ TEST_F(TrainCommand, RefusesWhatCannotBeGradedInOneSentence)
   {
     EXPECT_EQ(finished.code, 2) << finished.err;
     EXPECT_NE(finished.err.find(what), std::string::npos) << finished.err;
-    EXPECT_EQ(std::ranges::count(finished.err, '\n'), 1) << finished.err;
+    EXPECT_EQ(test::sentences(finished).size(), 1U) << finished.err;
   };
   const std::string out = "--out " + file("graded");
   expectRefusal(train("--difficulty brutal " + out), "expected one of easy, medium, hard, expert");

@@ -1,5 +1,5 @@
-#include "tests/app/import/sentences.h"
 #include "tests/support/deflated.h"
+#include "tests/support/process.h"
 
 #include <algorithm>
 #include <cstring>

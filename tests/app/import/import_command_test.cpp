@@ -2,9 +2,9 @@
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
-#include "tests/app/import/sentences.h"
 #include "tests/support/dicom_series.h"
 #include "tests/support/label_images.h"
+#include "tests/support/process.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

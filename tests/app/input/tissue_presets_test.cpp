@@ -112,7 +112,7 @@ TEST(TissuePresets, AnUnknownNameIsToldTheNearest)
   EXPECT_TRUE(wrong.err.starts_with(
     "palp: --tissue: 'hemangoma' is not known; the nearest are hemangioma, adenoma, "))
     << wrong.err;
-  EXPECT_EQ(std::ranges::count(wrong.err, '\n'), 1) << wrong.err;
+  EXPECT_EQ(test::sentences(wrong).size(), 1U) << wrong.err;
 }
 
 TEST(TissuePresets, TheCommandPrintsAllOfThemWithTheirSources)
