@@ -126,9 +126,40 @@ bool isKnown(const PlacedCompliance& place, double cell)
     place.edge * kEdges * cell < 1.0;
 }
 
+constexpr double kStep = 0.05; // of the distance to an edge
+
+// Away from the nearest sharp edge, along the surface: as long as the distance grows that way,
+// which is less than 1 where another edge is as near.
+Eigen::Vector3d awayFromEdge(const Surface& surface, const PlacedCompliance& place)
+{
+  const double step = kStep / std::abs(place.edge);
+  const Eigen::Vector3d right = place.normal.unitOrthogonal();
+  Eigen::Vector3d away = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& way : { right, place.normal.cross(right).eval() })
+  {
+    const double farther = surface.shape().sharpEdgeDistance(place.position + step * way) -
+      surface.shape().sharpEdgeDistance(place.position - step * way);
+    away += 0.5 / step * farther * way;
+  }
+  return away;
+}
+
+// Whether an edge on the other side counts, too: then what a body gives way is no wedge's.
+bool isBetweenEdges(const Surface& surface, const PlacedCompliance& place)
+{
+  constexpr double kFarther = 2.5; // times as far as the nearest one
+  constexpr double kKink = 0.6;    // of two edges that are as far
+  const Eigen::Vector3d away = awayFromEdge(surface, place);
+  const double nearest = surface.shape().sharpEdgeDistance(place.position);
+  const double moved = 0.5 * (kFarther - 1.0) * nearest;
+  return away.norm() < kKink ||
+    surface.shape().sharpEdgeDistance(place.position + moved * away.normalized()) <
+    nearest + moved - kStep * nearest;
+}
+
 // Places that cannot be answered for get the mean of what those around that can tell of them, from
 // their border on, so that nothing jumps there.
-void fill(std::vector<PlacedCompliance>& places, const OrganTable& table)
+void fill(std::vector<PlacedCompliance>& places, const OrganTable& table, const Surface& surface)
 {
   constexpr double kBeside = 2.5; // spacings
   std::vector<bool> known;
@@ -146,6 +177,9 @@ void fill(std::vector<PlacedCompliance>& places, const OrganTable& table)
       PlacedCompliance& place = places[i];
       PlacedCompliance sum;
       double count = 0.0;
+      const Eigen::Vector3d away = !before[i] && place.edge > 0.0
+        ? awayFromEdge(surface, place)
+        : Eigen::Vector3d(Eigen::Vector3d::Zero());
       for (std::size_t k = 0; k < places.size() && !before[i]; ++k)
       {
         const PlacedCompliance& other = places[k];
@@ -153,6 +187,10 @@ void fill(std::vector<PlacedCompliance>& places, const OrganTable& table)
           other.normal.dot(place.normal) > 0.0)
         {
           const bool isWedge = other.edge > 0.0 && place.edge > 0.0; // W/D, and W/(2 D^2)
+          if (isWedge && other.slope.dot(away) > 0.0)
+          {
+            continue; // of another edge
+          }
           const double nearer = isWedge ? place.edge / other.edge : 0.0;
           sum.constant += other.constant +
             (isWedge ? 2.0 * other.slope.norm() / other.edge * (nearer - 1.0) : 0.0);
@@ -269,7 +307,12 @@ bool addPlaces(
       std::back_inserter(table.places));
     if (table.places.size() == work.places.size())
     {
-      fill(table.places, table);
+      fill(table.places, table, surface);
+      for (PlacedCompliance& place : table.places)
+      {
+        const bool isBetween = place.edge > 0.0 && isBetweenEdges(surface, place);
+        place.edge = isBetween ? -place.edge : place.edge;
+      }
     }
     work.tell(table);
   }

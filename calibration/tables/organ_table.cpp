@@ -274,7 +274,8 @@ void writeOrganTable(const std::filesystem::path& file, const OrganTable& table)
       << "\n# places: " << table.count
       << "\n# constant, slope and bend: E* times what the body adds to the half-space's "
          "displacement per newton, G0 + b.(x + y) + (x'Ax + y'Ay)/2"
-         "\n# edge: one over the distance to a sharp edge; trust: 0 known, 1 an edge or another "
+         "\n# edge: one over the distance to a sharp edge, negative between two; trust: 0 known, 1 "
+         "an edge or another "
          "tissue is near, 2 "
          "too thin for the cells, 3 on a support, 4 from "
          "neighbors only\n";

@@ -16,7 +16,7 @@ namespace palp
 /// of its file.
 struct OrganTable
 {
-  static constexpr int kVersion = 2;
+  static constexpr int kVersion = 3;
 
   std::string mesh;        ///< what it is of: SHA-256 of its file, and how that was read
   std::string supports;    ///< where it rests, as text

@@ -16,6 +16,12 @@ namespace palp
 namespace
 {
 
+// of the limit, where it depends on what nobody says: even a ball that hangs from one side gives
+// way
+constexpr double kUnsure = 0.9;
+constexpr double kSurely = std::numeric_limits<double>::infinity();
+constexpr double kSlant = units::fromDegrees(80.0); // less between two faces of a wedge
+
 // from a place to where a box ends [m]
 double extentAlong(
   const BoxTree::Node& box, const Eigen::Vector3d& from, const Eigen::Vector3d& way) noexcept
@@ -31,7 +37,8 @@ double extentAlong(
 }
 
 // How near a contact is to where two faces of a wedge would meet, over the distance at which that
-// yields 7 %: by finite elements one of 60 and 45 degrees does 8 and 30 times as much as one of 90.
+// yields 7 %: by finite elements one of 60 and 45 degrees does 8 and 30 times as much as one of 90,
+// less where its slant face ends before it is below.
 double fractionOf(double distance, double angle, double thickness, double contactRadius) noexcept
 {
   constexpr double kLimit = 0.2; // a / distance, at 90 degrees
@@ -40,19 +47,22 @@ double fractionOf(double distance, double angle, double thickness, double contac
   constexpr double kOver = 4.0;       // times as much at most where that ends before
   const double below = thickness / (distance * std::tan(angle));
   const double most = std::pow(0.5 * std::numbers::pi / std::max(kSlimmest, angle), 5);
-  const double factor = below > kOverSlant ? most : std::min(most, kOver * below * below);
+  const double factor =
+    angle > kSlant || below > kOverSlant ? most : std::min(most, kOver * below * below);
   return factor * contactRadius / (kLimit * distance);
 }
 
 // The same, by what faces rays meet that leave a contact slantwise; what few meet, as rough places
-// and vessels, does not count.
-double wedgeFraction(const Surface& surface, const Contact& contact, double contactRadius) noexcept
+// and vessels, does not count. A slant face may be what lies on something, where that is said.
+double wedgeFraction(
+  const Surface& surface, const Contact& contact, double contactRadius, Base base) noexcept
 {
   constexpr int kRays = 12;
   constexpr int kFew = 2;
   constexpr double kDown = units::fromDegrees(40.0);
-  constexpr double kSharp = units::fromDegrees(80.0);
-  constexpr double kCutOff = 1.5; // of what there is of the body, the distance of the edge
+  constexpr double kWidest = units::fromDegrees(95.0); // of an edge that is rounded
+  constexpr double kToEdge = 0.95; // of the distance to a sharp one, whose own rule tells it
+  constexpr double kCutOff = 1.5;  // of what there is of the body, the distance of the edge
   const Eigen::Vector3d right = contact.normal.unitOrthogonal();
   const Eigen::Vector3d ahead = contact.normal.cross(right);
   const BoxTree::Node& all = surface.tree().nodes().front();
@@ -75,10 +85,12 @@ double wedgeFraction(const Surface& surface, const Contact& contact, double cont
     const Eigen::Vector3d outward = (face - facing * contact.normal).normalized();
     const double distance = hit.distance * face.dot(way) / std::sin(angle);
     const double there = extentAlong(all, contact.center, outward);
-    if (angle < kSharp && distance < kCutOff * there)
+    const bool isToldByEdge = angle > kSlant && kToEdge * contact.edgeDistance < distance;
+    if (angle < kWidest && distance < kCutOff * there && !isToldByEdge)
     {
+      const double most = angle < kSlant && base != Base::Unset ? kUnsure : kSurely;
       fractions[static_cast<std::size_t>(i)] =
-        fractionOf(distance, angle, contact.thickness, contactRadius);
+        std::min(most, fractionOf(distance, angle, contact.thickness, contactRadius));
     }
   }
   std::ranges::nth_element(fractions, fractions.begin() + kFew, std::greater());
@@ -93,10 +105,9 @@ Rule lobeRule(
   constexpr double kModulus = 1.25; // E* over E, of liver
   constexpr double kLobe = 2.0;     // of the thickness, the least extent of the body
   constexpr double kPlate = 2.5;    // likewise, the side of a square plate of its size
-  // whatever has its base unset: even a ball that hangs from one side gives way
-  constexpr double kUnset = 0.9;
   const BoxTree::Node& all = surface.tree().nodes().front();
   double least = std::numeric_limits<double>::infinity();
+  double longest = 0.0;
   double squares = 0.0;
   double box = 1.0;
   double high = 0.0; // along the normal [m]
@@ -104,11 +115,12 @@ Rule lobeRule(
   {
     const double extent = static_cast<double>(all.high[k]) - static_cast<double>(all.low[k]);
     least = std::min(least, extent);
+    longest = std::max(longest, extent);
     squares += extent * extent;
     box *= extent;
     high += std::abs(contact.normal[static_cast<int>(k)]) * extent;
   }
-  const double wide = std::sqrt(0.5 * squares);
+  const double wide = std::max(longest, std::sqrt(0.5 * squares));
   Rule rule{ "lobe", "-", 0.0, 1.0,
     "as high and slim as a column, or nobody says what is below and it is a wedge, or thinner than "
     "half of the body or 0.4 of its extent: what nothing holds beside or below gives way, and is "
@@ -117,16 +129,15 @@ Rule lobeRule(
   if (contact.touching())
   {
     const double thickness = contact.thickness;
-    const double wedge = wedgeFraction(surface, contact, contactRadius);
+    const double wedge = wedgeFraction(surface, contact, contactRadius, base);
     const double lobe =
-      std::max({ kUnset, least / (kLobe * thickness), wide / (kPlate * thickness), wedge });
+      std::max({ kUnsure, least / (kLobe * thickness), wide / (kPlate * thickness), wedge });
     // that of a half-space below the body is in the law
     const double column = std::isfinite(thickness) && box > 0.0
       ? kModulus * thickness * high / box - std::numbers::inv_pi / thickness
       : 0.0;
-    // the slant face of a wedge may be what lies on something
-    rule.value = std::max(2.0 * contactRadius * column / Validity::kJustNoticeable,
-      base == Base::Unset ? lobe : std::min(kUnset, wedge));
+    rule.value = std::max(
+      2.0 * contactRadius * column / Validity::kJustNoticeable, base == Base::Unset ? lobe : wedge);
   }
   return rule;
 }

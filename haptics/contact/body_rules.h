@@ -13,10 +13,10 @@ namespace palp
 ///
 /// Half of the body, as a lobe of a thicker one; or 0.4 of its extent: held at one end it gives
 /// way by bending and shear as much as a contact of a fifth of its thickness does, or more.
-/// Or a wedge of less than 80 degrees near its edge, by 7 % of the force or more. Doubtful
-/// everywhere else, as it depends on what nobody says. And whatever is below, whether the
-/// body is compressed along the press, as a rod of the section of its box, by 7 % of what the
-/// contact yields more than the law knows of.
+/// Or a wedge of less than 80 degrees near its edge, by 7 % of the force or more, or an upright one
+/// whatever is said, also where it is rounded. Doubtful everywhere else, as it depends on what
+/// nobody says. And whatever is below, whether the body is compressed along the press, as a rod of
+/// the section of its box, by 7 % of what the contact yields more than the law knows of.
 ///
 /// @param contactRadius  [m]
 ///

@@ -44,7 +44,8 @@ struct PlacedCompliance
   double constant = 0.0;                              ///< E* G0 [1/m]
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();    ///< E* b, along the surface [1/m^2]
   double bend = 0.0;                                  ///< E* tr A [1/m^3]
-  double edge = 0.0; ///< one over the distance to a sharp edge [1/m]; 0: none near
+  double edge = 0.0; ///< one over the distance to a sharp edge [1/m]; 0: none near; negative:
+                     ///< another one is not much farther on the other side
   ComplianceTrust trust = ComplianceTrust::Known;
 };
 
@@ -52,8 +53,9 @@ struct PlacedCompliance
 ///
 /// Each place tells of its surroundings by its value and twice its slope, which is the gradient of
 /// the constant. Beside an edge at a distance D it is as in a wedge: of the constant 2 D times the
-/// slope goes as 1/D, and the slope as 1/D^2, up to next to the edge. These are blended, twice
-/// continuously differentiable along the surface.
+/// slope goes as 1/D, and the slope as 1/D^2, up to next to the edge. Between two edges it also
+/// tells how the constant is curved. These are blended, twice continuously differentiable along the
+/// surface.
 class ComplianceField
 {
 public:
@@ -116,14 +118,17 @@ private:
   {
     Eigen::Vector3f position;
     Eigen::Vector3f normal;
-    Eigen::Vector3f gradient; // of the constant, where no edge is near
-    Eigen::Vector3f edge;     // away from one, of unit length
-    float rest;               // of the constant, without an edge
-    float slope;              // likewise
+    Eigen::Vector3f gradient;              // of the constant, where no edge is near
+    Eigen::Vector3f edge;                  // away from one, of unit length
+    std::array<Eigen::Vector3f, 2> curves; // of the constant between two, across each other, by the
+                                           // root of its second derivative
+    float rest;                            // of the constant, without an edge
+    float slope;                           // likewise
     float bend;
     float wedge;  // times D, what an edge adds to the constant
     float beside; // D [m]; 0: no edge is near
     float doubtful;
+    bool isBetween; // two edges
   };
 
   enum Told
@@ -203,6 +208,7 @@ private:
   void sortIntoCells();
   template <typename Visit>
   void forCellsWithin(const Eigen::Vector3d& position, const Visit& visit); // reach of there
+  [[nodiscard]] std::array<Eigen::Vector3f, 2> curvesAt(const Place& place) const;
   void sharpen();
 
   float reach_;    // of a place [m]

@@ -88,21 +88,58 @@ inline double ratioAt(const Body& body, const Vector3d& place)
   return isBeyond && !body.border.isZero() ? body.ratio : 1.0;
 }
 
-// the places of an organ file around where it is pressed, felt in a scene
-inline Scene sceneOf(const Body& body, double around)
+// what a body is on, and how it is solved
+struct Held
 {
-  const Mesh mesh = meshOf(body);
+  Support support;
+  double cell = 4.0_mm;
+  ModulusRatio ratio{};
+};
+
+// a ball or another tool on a surface by the law that a body's compliance is to complete
+inline Scene halfSpace(const Mesh& mesh, const Tip& tip, LawMode mode = LawMode::Exact)
+{
   Scene scene;
   scene.surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
   LawSettings settings;
-  settings.mode = body.border.isZero() ? LawMode::Exact : LawMode::Corrected;
+  settings.mode = mode;
   settings.constitution = ConstitutiveModel::Linear;
   settings.thickness = false; // what is below is in the body's compliance
-  scene.law = ForceLaw(body.tip, makeMaterial(kYoung, kPoisson), settings);
-  ModulusRatio ratio;
-  if (!body.border.isZero())
+  scene.law = ForceLaw(tip, makeMaterial(kYoung, kPoisson), settings);
+  scene.forceLimit = 1e3;
+  return scene;
+}
+
+// the places of an organ file around one
+inline void addOrgan(Scene& scene, const Held& held, const Vector3d& middle, double around)
+{
+  const std::span support(&held.support, 1);
+  const OrganModel model(*scene.surface, held.cell, kYoung, kPoisson, support, held.ratio);
+  OrganTable table;
+  table.cell = held.cell;
+  table.spacing = spacingOf(*scene.surface, table.cell);
+  std::vector<SurfacePoint> places = organPlaces(*scene.surface, table.spacing);
+  std::erase_if(
+    places, [&](const SurfacePoint& place) { return (place.position - middle).norm() > around; });
+  table.count = places.size();
+  EXPECT_TRUE(addPlaces(table, model, *scene.surface,
+    { .places = places, .supports = support, .tell = [](const OrganTable&) {} }));
+  scene.series = seriesBodyOf(
+    std::make_shared<const ComplianceField>(table.places, table.spacing, kPoisson), scene.law);
+}
+
+// as by an organ file around where a body is pressed
+inline Scene sceneOf(const Body& body, double around)
+{
+  const bool isEven = body.border.isZero();
+  Scene scene = halfSpace(meshOf(body), body.tip, isEven ? LawMode::Exact : LawMode::Corrected);
+  Held held{ .support{ [&](const Vector3d& x) {
+              return body.isLobe ? x.x() > 0.4999 * body.size.x() : x.z() < -0.9999 * body.size.z();
+            } },
+    .cell = body.cell };
+  if (!isEven)
   {
-    ratio = [body](const Vector3d& place) { return ratioAt(body, place); };
+    held.ratio = [body](const Vector3d& place) { return ratioAt(body, place); };
     Mesh near = makeBox({ 30.0_mm, 30.0_mm, 30.0_mm }, 5.0_mm); // it is told for each place
     for (Vector3d& point : near.points)
     {
@@ -111,23 +148,7 @@ inline Scene sceneOf(const Body& body, double around)
     scene.stiffness = embedStiffness(Surface(near.points, near.triangles), scene.law,
       [body](const Vector3d& place) { return kYoung * ratioAt(body, place); });
   }
-  scene.forceLimit = 1e3;
-  const Support support{ [&](const Vector3d& x)
-    { return body.isLobe ? x.x() > 0.4999 * body.size.x() : x.z() < -0.9999 * body.size.z(); } };
-  const OrganModel model(
-    *scene.surface, body.cell, kYoung, kPoisson, std::span(&support, 1), ratio);
-  OrganTable table;
-  table.cell = body.cell;
-  table.spacing = spacingOf(*scene.surface, table.cell);
-  std::vector<SurfacePoint> places = organPlaces(*scene.surface, table.spacing);
-  std::erase_if(places,
-    [&](const SurfacePoint& place)
-    { return (place.position - Vector3d(body.place, 0.0, 0.0)).norm() > around; });
-  table.count = places.size();
-  EXPECT_TRUE(addPlaces(table, model, *scene.surface,
-    { .places = places, .supports = std::span(&support, 1), .tell = [](const OrganTable&) {} }));
-  scene.series = seriesBodyOf(
-    std::make_shared<const ComplianceField>(table.places, table.spacing, kPoisson), scene.law);
+  addOrgan(scene, held, { body.place, 0.0, 0.0 }, around);
   return scene;
 }
 
