@@ -223,7 +223,7 @@ void checkVersion(const std::filesystem::path& file, const std::string& text)
   {
     refuse(file,
       "is an organ file of version " + inQuotes(version) + ", this program reads " +
-        std::to_string(OrganTable::kVersion) + "; make it again by palp organ");
+        std::to_string(OrganTable::kVersion) + "; make it again by palp organ --overwrite");
   }
   if (text.back() != '\n')
   {

@@ -119,10 +119,10 @@ TEST(OrganTable, RefusesInOneSentence)
   EXPECT_EQ(refusalOf(good), "");
   EXPECT_NE(refusalOf("").find("is no organ file"), std::string::npos);
   EXPECT_NE(refusalOf("x,y\n1,2\n").find("is no organ file"), std::string::npos);
-  EXPECT_NE(refusalOf(replaced(good, "organ 2", "organ 7")).find("version '7'"), std::string::npos);
-  // made before edges were known as well, and without what is drawn
-  const std::string old = refusalOf(replaced(good, "organ 2", "organ 1"));
-  EXPECT_NE(old.find("version '1'"), std::string::npos);
+  EXPECT_NE(refusalOf(replaced(good, "organ 3", "organ 7")).find("version '7'"), std::string::npos);
+  // made before what is between two edges was told
+  const std::string old = refusalOf(replaced(good, "organ 3", "organ 2"));
+  EXPECT_NE(old.find("version '2'"), std::string::npos);
   EXPECT_NE(old.find("again by palp organ"), std::string::npos);
   EXPECT_NE(refusalOf(replaced(good, "motion_modes: 2", "motion_modes: 3")).find("damaged"),
     std::string::npos);
