@@ -19,7 +19,6 @@ namespace
 // of the limit, where it depends on what nobody says: even a ball that hangs from one side gives
 // way
 constexpr double kUnsure = 0.9;
-constexpr double kSurely = std::numeric_limits<double>::infinity();
 constexpr double kSlant = units::fromDegrees(80.0); // less between two faces of a wedge
 
 // from a place to where a box ends [m]
@@ -88,9 +87,9 @@ double wedgeFraction(
     const bool isToldByEdge = angle > kSlant && kToEdge * contact.edgeDistance < distance;
     if (angle < kWidest && distance < kCutOff * there && !isToldByEdge)
     {
-      const double most = angle < kSlant && base != Base::Unset ? kUnsure : kSurely;
-      fractions[static_cast<std::size_t>(i)] =
-        std::min(most, fractionOf(distance, angle, contact.thickness, contactRadius));
+      const bool mayLie = angle < kSlant && base != Base::Unset;
+      const double fraction = fractionOf(distance, angle, contact.thickness, contactRadius);
+      fractions[static_cast<std::size_t>(i)] = mayLie ? std::min(kUnsure, fraction) : fraction;
     }
   }
   std::ranges::nth_element(fractions, fractions.begin() + kFew, std::greater());
