@@ -132,7 +132,7 @@ constexpr double kStep = 0.05; // of the distance to an edge
 // which is less than 1 where another edge is as near.
 Eigen::Vector3d awayFromEdge(const Surface& surface, const PlacedCompliance& place)
 {
-  const double step = kStep / std::abs(place.edge);
+  const double step = kStep / place.edge;
   const Eigen::Vector3d right = place.normal.unitOrthogonal();
   Eigen::Vector3d away = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& way : { right, place.normal.cross(right).eval() })
@@ -145,12 +145,16 @@ Eigen::Vector3d awayFromEdge(const Surface& surface, const PlacedCompliance& pla
 }
 
 // Whether an edge on the other side counts, too: then what a body gives way is no wedge's.
-bool isBetweenEdges(const Surface& surface, const PlacedCompliance& place)
+bool isBetweenEdges(const Surface& surface, const PlacedCompliance& place, double cell)
 {
   constexpr double kFarther = 2.5; // times as far as the nearest one
   constexpr double kKink = 0.6;    // of two edges that are as far
+  if (!(place.edge * cell < 1.0))  // beside one it is
+  {
+    return false;
+  }
   const Eigen::Vector3d away = awayFromEdge(surface, place);
-  const double nearest = surface.shape().sharpEdgeDistance(place.position);
+  const double nearest = 1.0 / place.edge;
   const double moved = 0.5 * (kFarther - 1.0) * nearest;
   return away.norm() < kKink ||
     surface.shape().sharpEdgeDistance(place.position + moved * away.normalized()) <
@@ -310,7 +314,7 @@ bool addPlaces(
       fill(table.places, table, surface);
       for (PlacedCompliance& place : table.places)
       {
-        const bool isBetween = place.edge > 0.0 && isBetweenEdges(surface, place);
+        const bool isBetween = place.edge > 0.0 && isBetweenEdges(surface, place, table.cell);
         place.edge = isBetween ? -place.edge : place.edge;
       }
     }

@@ -90,12 +90,15 @@ PlacedCompliance placeOf(const std::filesystem::path& file, const NumberTable::R
   const Eigen::Vector3d normal(v[3], v[4], v[5]);
   constexpr double kUnit = 1e-3;
   constexpr int kLast = static_cast<int>(ComplianceTrust::Unknown);
+  constexpr double kMostTold = 1e8; // of a hair, or next to an edge
   const double trust = v[12];
-  if (!(std::abs(normal.norm() - 1.0) < kUnit) || !(trust >= 0.0 && trust <= kLast))
+  if (!(std::abs(normal.norm() - 1.0) < kUnit) || !(trust >= 0.0 && trust <= kLast) ||
+    !(std::abs(v[6]) <= kMostTold))
   {
     throw Error(ErrorCode::BadFile,
       where(file, row.line) +
-        "is no place of a body: its normal has to be of unit length, trust 0 to 4");
+        "is no place of a body: its normal has to be of unit length, its constant within 1e8 per "
+        "m, trust 0 to 4");
   }
   return { .position = units::fromMillimeters(1.0) * Eigen::Vector3d(v[0], v[1], v[2]),
     .normal = normal.normalized(),

@@ -121,8 +121,9 @@ Rule lobeRule(
   }
   const double wide = std::max(longest, std::sqrt(0.5 * squares));
   Rule rule{ "lobe", "-", 0.0, 1.0,
-    "as high and slim as a column, or nobody says what is below and it is a wedge, or thinner than "
-    "half of the body or 0.4 of its extent: what nothing holds beside or below gives way, and is "
+    "as high and slim as a column, or beside an edge that is rounded, or nobody says what is below "
+    "and it is a wedge, or thinner than half of the body or 0.4 of its extent: what nothing holds "
+    "beside or below gives way, and is "
     "felt softer; --base says that it lies on something rigid, palp organ and --organ take all of "
     "it into account" };
   if (contact.touching())
