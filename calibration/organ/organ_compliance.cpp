@@ -37,12 +37,13 @@ Eigen::VectorXd loadBeyond(
   Eigen::VectorXd load = Eigen::VectorXd::Zero(3L * model.nodes());
   OrganModel::Weights weights{};
   constexpr double growth = 0.1;
+  constexpr double filled = 0.0; // a load is in its own cube, however little of that is filled
   forParts(plane.surface(), plane.place(), 0.5 * model.side(), growth,
     [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& area)
     {
       const Eigen::Vector3d normal = plane.inside(area);
       const Eigen::Vector3d local = plane.inside(middle - plane.place());
-      if (!model.weightsAt(middle, area.normalized(), weights))
+      if (!model.weightsAt(middle, area.normalized(), weights, filled))
       {
         return;
       }

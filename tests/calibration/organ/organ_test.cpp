@@ -222,6 +222,26 @@ TEST(OrganCompliance, OfASlenderBodyIsThatOfABeam)
   }
 }
 
+// a bar bends as one over its width, of which cubes of 4 mm hold 4 to 6
+TEST(OrganCompliance, OfABarIsOneOverItsWidthWhateverItsCubes)
+{
+  const auto times = [](double width)
+  {
+    const Mesh mesh = makeBox({ 80.0_mm, width, 25.0_mm }, 5.0_mm);
+    const Surface surface(mesh.points, mesh.triangles);
+    const Support end{ [](const Vector3d& x) { return x.x() > 39.99_mm; } };
+    const OrganModel model(surface, 4.0_mm, kYoung, kPoisson, std::span(&end, 1));
+    const auto found =
+      complianceAt(model, surface, Vector3d(-16.0_mm, 0.0, 0.0), Vector3d::UnitZ());
+    return found.value().constant * width;
+  };
+  const double whole = times(16.0_mm);
+  for (const double width : { 17.0_mm, 17.5_mm, 18.0_mm, 19.0_mm, 22.5_mm, 24.0_mm })
+  {
+    EXPECT_NEAR(times(width), whole, 0.03 * whole) << width;
+  }
+}
+
 // the bases half in a cell, the top, neither along the cells; the exact law of a bonded layer
 TEST(OrganCompliance, OfASlabIsThatOfALayerInAnyAttitude)
 {
