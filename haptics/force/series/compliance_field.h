@@ -55,7 +55,7 @@ struct PlacedCompliance
 /// the constant. Beside an edge at a distance D it is as in a wedge: of the constant 2 D times the
 /// slope goes as 1/D, and the slope as 1/D^2, up to next to the edge. Between two edges it also
 /// tells how the constant is curved. These are blended, twice continuously differentiable along the
-/// surface.
+/// surface but for the slope where it comes to 0 between two edges.
 class ComplianceField
 {
 public:

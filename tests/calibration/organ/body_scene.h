@@ -43,6 +43,22 @@ struct Body
   Tip tip = SphereTip{ 10.0_mm };
 };
 
+// planes from end to end, no further apart than that
+inline std::vector<double> divided(const std::vector<double>& ends, double edges)
+{
+  std::vector<double> planes{ ends.front() };
+  for (std::size_t i = 1; i < ends.size(); ++i)
+  {
+    const double length = ends[i] - ends[i - 1];
+    const int count = static_cast<int>(std::ceil(length / edges - 1e-9));
+    for (int k = 1; k <= count; ++k)
+    {
+      planes.push_back(ends[i - 1] + length * k / count);
+    }
+  }
+  return planes;
+}
+
 // its top is at the origin
 inline Mesh meshOf(const Body& body)
 {
@@ -57,25 +73,11 @@ inline Mesh meshOf(const Body& body)
     }
     return box;
   }
-  const auto divided = [&](const std::vector<double>& ends)
-  {
-    std::vector<double> planes{ ends.front() };
-    for (std::size_t i = 1; i < ends.size(); ++i)
-    {
-      const double length = ends[i] - ends[i - 1];
-      const int count = static_cast<int>(std::ceil(length / body.edges - 1e-9));
-      for (int k = 1; k <= count; ++k)
-      {
-        planes.push_back(ends[i - 1] + length * k / count);
-      }
-    }
-    return planes;
-  };
   const double end = 0.5 * body.size.x();
   const double foot = 25.0_mm - end;
-  const std::array planes{ divided({ -end, foot, end }),
-    divided({ -0.5 * body.size.y(), 0.5 * body.size.y() }),
-    divided({ -body.size.z(), 0.0, body.wall }) };
+  const std::array planes{ divided({ -end, foot, end }, body.edges),
+    divided({ -0.5 * body.size.y(), 0.5 * body.size.y() }, body.edges),
+    divided({ -body.size.z(), 0.0, body.wall }, body.edges) };
   return cells(planes,
     [&](const std::array<int, 3>& cell)
     { return planes[0][at(cell[0])] < foot - 1e-9 || planes[2][at(cell[2])] < -1e-9; });

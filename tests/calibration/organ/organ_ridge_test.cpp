@@ -1,7 +1,5 @@
 #include "tests/calibration/organ/body_scene.h"
 
-#include <initializer_list>
-
 // Tops so narrow that the edges on both sides of a place count.
 
 namespace palp
@@ -12,21 +10,6 @@ namespace
 using namespace units::literals;
 using Eigen::Vector3d;
 using test::at;
-
-std::vector<double> divided(std::initializer_list<double> ends)
-{
-  std::vector<double> planes{ *ends.begin() };
-  for (const double end : ends)
-  {
-    const double begin = planes.back();
-    const int count = static_cast<int>(std::ceil((end - begin) / 4.0_mm - 1e-9));
-    for (int k = 1; k <= count; ++k)
-    {
-      planes.push_back(begin + (end - begin) * k / count);
-    }
-  }
-  return planes;
-}
 
 // stands 20 mm high on the middle of a slab of 100 x 100 x 30 mm, bonded below; its top at z = 0
 struct Ridge
@@ -43,11 +26,12 @@ Mesh meshOf(const Ridge& ridge)
 {
   const auto across = [](double width)
   {
-    return width < 100.0_mm ? divided({ -50.0_mm, -0.5 * width, 0.5 * width, 50.0_mm })
-                            : divided({ -50.0_mm, 50.0_mm });
+    return width < 100.0_mm
+      ? test::divided({ -50.0_mm, -0.5 * width, 0.5 * width, 50.0_mm }, 4.0_mm)
+      : test::divided({ -50.0_mm, 50.0_mm }, 4.0_mm);
   };
   const std::array planes{ across(ridge.width), across(ridge.length),
-    divided({ -50.0_mm, -20.0_mm, 0.0 }) };
+    test::divided({ -50.0_mm, -20.0_mm, 0.0 }, 4.0_mm) };
   const auto middle = [&](std::size_t axis, int cell)
   { return 0.5 * (planes.at(axis)[palp::at(cell)] + planes.at(axis)[palp::at(cell + 1)]); };
   return test::cells(planes,
